@@ -81,8 +81,8 @@ std::optional<int> ChildProcess::exit_code() {
 namespace {
 
 constexpr std::array<const char*, 4> kPrinters{"weasyprint", "chromium", "chromium-browser", "google-chrome"};
-constexpr std::chrono::seconds kPatience{60};
-constexpr std::chrono::milliseconds kPollInterval{20};
+constexpr std::chrono::seconds kLongestWait{60};
+constexpr std::chrono::milliseconds kExitPollInterval{20};
 
 /// A folder of its own under the temporary one; removed with all that a browser left in it.
 class ScratchFolder {
@@ -133,7 +133,7 @@ bool runs_well(std::vector<std::string> words) {
     ::execv(pointers.front(), pointers.data());
     ::_exit(127);
   }
-  const auto end = std::chrono::steady_clock::now() + kPatience;
+  const auto end = std::chrono::steady_clock::now() + kLongestWait;
   int status = 0;
   while (::waitpid(child, &status, WNOHANG) == 0) {
     if (std::chrono::steady_clock::now() > end) {
@@ -141,7 +141,7 @@ bool runs_well(std::vector<std::string> words) {
       ::waitpid(child, &status, 0);
       return false;
     }
-    std::this_thread::sleep_for(kPollInterval);
+    std::this_thread::sleep_for(kExitPollInterval);
   }
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }

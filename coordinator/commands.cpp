@@ -38,7 +38,7 @@ void say(const char (&text)[N]) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, N - 1);
 }
 
-void on_signal(int) {
+void on_interrupt(int) {
   if (interrupted.exchange(true)) {
     say("\nended at once; what was not written yet is lost\n");
     ::_exit(static_cast<int>(ExitCode::interrupted));
@@ -49,8 +49,8 @@ void on_signal(int) {
 }  // namespace
 
 const std::atomic<bool>& watch_for_interrupt() {
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
   return interrupted;
 }
 

@@ -37,7 +37,7 @@ struct Size {
   std::size_t columns = 100, lines = 0;
 };
 
-Size size_of(std::FILE* out) {
+Size terminal_size(std::FILE* out) {
   winsize size{};
   if (::ioctl(::fileno(out), TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return {size.ws_col, size.ws_row};
   const char* const columns = std::getenv("COLUMNS");
@@ -45,7 +45,7 @@ Size size_of(std::FILE* out) {
   return width > 0 && width < 1000 ? Size{static_cast<std::size_t>(width), 0} : Size{};
 }
 
-std::string joined(const std::vector<std::string>& lines, const char* end) {
+std::string with_line_ends(const std::vector<std::string>& lines, const char* end) {
   std::string text;
   for (const std::string& line : lines) text += line + end;
   return text;
@@ -203,22 +203,22 @@ void MonitorScreen::draw(const Watched& watched, double now_s) {
 }
 
 void MonitorScreen::redraw(const Watched& watched, double now_s) {
-  const Size size = size_of(out_);
+  const Size size = terminal_size(out_);
   const auto page = [&](std::size_t lines) {
     return monitor_page(watched, {size.columns, lines, colours_, now_s, place_});
   };
   if (!std::exchange(in_place_, true)) std::fputs(kOtherScreen, out_);
   // The last line ends without a line break: it would move the page up.
-  std::string text = joined(page(size.lines), "\033[K\r\n");
+  std::string text = with_line_ends(page(size.lines), "\033[K\r\n");
   text.resize(text.size() - 2);
   std::fputs(("\033[H" + text + "\033[J").c_str(), out_);
   std::fflush(out_);
-  last_ = joined(page(0), "\n");
+  last_ = with_line_ends(page(0), "\n");
 }
 
 void MonitorScreen::print(const Watched& watched, double now_s) {
-  const Size size = size_of(out_);
-  std::fputs(joined(monitor_page(watched, {size.columns, 0, colours_, now_s, place_}), "\n").c_str(), out_);
+  const Size size = terminal_size(out_);
+  std::fputs(with_line_ends(monitor_page(watched, {size.columns, 0, colours_, now_s, place_}), "\n").c_str(), out_);
   std::fflush(out_);
 }
 

@@ -27,7 +27,7 @@ namespace {
 using Stage = LoopNews::Stage;
 using EventClock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kShutdownTimeout{300};
+constexpr std::chrono::milliseconds kReporterTimeout{300};
 
 std::uint64_t new_calibration() {
   const auto moment = std::chrono::system_clock::now().time_since_epoch().count();
@@ -52,7 +52,7 @@ struct RecordedBefore {
   std::set<std::uint64_t> unended;  ///< calibrations that were broken off
 };
 
-void count(const Event& event, RecordedBefore& before) {
+void note_recorded(const Event& event, RecordedBefore& before) {
   before.end_s = event.time_s;
   if (const auto* lost = std::get_if<CalibrationLost>(&event.message)) before.unended.erase(lost->calibration);
   const auto* news = std::get_if<LoopNews>(&event.message);
@@ -68,7 +68,7 @@ RecordedBefore prepare_to_resume(const std::string& path) {
     const std::string text = read_file(path);
     const std::size_t end = text.rfind('\n');
     std::filesystem::resize_file(path, end == std::string::npos ? 0 : end + 1);
-    for (const Event& event : read_events(path)) count(event, before);
+    for (const Event& event : read_events(path)) note_recorded(event, before);
   } catch (const std::exception&) {
     std::error_code ignored;
     std::filesystem::remove(path, ignored);
@@ -180,7 +180,7 @@ void EventLog::on_round(const Round& round, const Robot& described) {
 
 void EventLog::finish(LoopNews::Stage stage, const std::string& text) {
   publish_stage(stage, text);
-  reporter_->flush(kShutdownTimeout);
+  reporter_->flush(kReporterTimeout);
 }
 
 void EventLog::publish_stage(LoopNews::Stage stage, const std::string& text) {

@@ -15,7 +15,7 @@
 namespace demecal {
 namespace {
 
-void put(const std::string& line) {
+void put_line(const std::string& line) {
   if (line.empty()) return;
   std::puts(line.c_str());
   std::fflush(stdout);
@@ -53,12 +53,12 @@ void RecordingFile::write(const std::string& bytes) {
 MonitorOutput::MonitorOutput(const MonitorOptions& options) : options_(options), screen_(stdout, options.place) {
   if (!options_.record.empty()) recording_.emplace(options_.record);
   if (options_.ros2 != nullptr) ros2_.emplace(*options_.ros2);
-  if (options_.json) put(first_event_line());
+  if (options_.json) put_line(first_event_line());
   if (options_.http.empty()) return;
   const std::string arm = options_.data_file.empty() ? "" : arm_event(options_.data_file, options_.model_file);
   page_.emplace(options_.http, options_.token_file, options_.place);
   if (!arm.empty()) page_->show_arm(arm);
-  put("live page of " + options_.place + ": " + page_->address());
+  put_line("live page of " + options_.place + ": " + page_->address());
 }
 
 void MonitorOutput::take(const Message& message, double now_s) {
@@ -67,7 +67,7 @@ void MonitorOutput::take(const Message& message, double now_s) {
   if (page_) return page_->take(message, now_s);
   watched_.take(message, now_s);
   changed_ = true;
-  if (options_.json) put(event_line(message, now_s));
+  if (options_.json) put_line(event_line(message, now_s));
 }
 
 void MonitorOutput::show(double now_s) {

@@ -27,7 +27,7 @@
 namespace {
 
 constexpr unsigned kLongestStop_s = 2;
-constexpr const char* kExitStatus =
+constexpr const char* kWorkerExitStatus =
     "0: asked to end. 10: wrong arguments. 11: wrong options or certificates. 21: it failed. 130: asked to end twice.";
 
 std::atomic<bool> stop{false};
@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_option("--only-run", options.only_run, "serve the coordinator of this run alone");
   app.set_version_flag("--version", DEMECAL_VERSION);
-  demecal::add_manual(app, kExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });
+  demecal::add_manual(app, kWorkerExitStatus, [](const std::string& text) { std::fputs(text.c_str(), stdout); });
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

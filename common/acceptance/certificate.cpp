@@ -21,10 +21,10 @@
 namespace demecal::inline acceptance {
 namespace {
 
-using Rows = std::vector<std::size_t>;
+using CertifiedRows = std::vector<std::size_t>;
 
 /// The least and largest of what the judged poses state; nothing where one of them states nothing.
-Condition condition(const DataSet& data, const Rows& rows, std::string name, std::string unit,
+Condition condition(const DataSet& data, const CertifiedRows& rows, std::string name, std::string unit,
                     const std::function<std::optional<double>(const MeasuredPose&)>& value) {
   Condition range{std::move(name), {}, {}, std::move(unit)};
   double lower = std::numeric_limits<double>::infinity(), upper = -lower;
@@ -39,7 +39,7 @@ Condition condition(const DataSet& data, const Rows& rows, std::string name, std
   return range;
 }
 
-std::vector<Condition> conditions(const DataSet& data, const Rows& rows) {
+std::vector<Condition> conditions(const DataSet& data, const CertifiedRows& rows) {
   std::vector<Condition> all{
       condition(data, rows, "payload", "kg", [](const MeasuredPose& pose) { return pose.payload_kg; }),
       condition(data, rows, "temperature", "°C", [](const MeasuredPose& pose) { return pose.temperature_celsius; }),
@@ -78,7 +78,7 @@ CertifiedView view_of(const DataSet& data, const std::vector<AttainedPose>& pose
   return view;
 }
 
-SetErrors errors_of(const CorrectedRobot& robot, const DataSet& data, const Rows& rows) {
+SetErrors errors_of(const CorrectedRobot& robot, const DataSet& data, const CertifiedRows& rows) {
   return set_errors(error_figures(robot, data, rows));
 }
 
@@ -102,7 +102,7 @@ struct BothArms {
   const CorrectedRobot& after;
 };
 
-std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const DataSet& data, const Rows& rows,
+std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const DataSet& data, const CertifiedRows& rows,
                                            const BothArms& arms, double tolerance_m) {
   const std::vector<AttainedPose> before = attained_poses(data, rows, arms.before);
   const std::vector<AttainedPose> after = attained_poses(data, rows, arms.after);
@@ -184,7 +184,7 @@ std::vector<std::size_t> judged_poses(const DataSet& data) {
 CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot) {
   constexpr std::size_t kFewest = 4;
   const PoseSet judged = data.poses[judged_poses(data).front()].set;
-  Rows rows = poses_of(data, PoseSet::calibration);
+  CertifiedRows rows = poses_of(data, PoseSet::calibration);
   if (rows.size() < kFewest && judged == PoseSet::accept) rows = poses_of(data, PoseSet::validation);
   if (rows.size() < kFewest) rows = judged_poses(data);
   const Fit fit = fit_registration(data, rows, base_and_tool, robot);
@@ -195,7 +195,8 @@ CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool,
 namespace {
 
 /// What does not depend on what was measured.
-Certificate stated(const CalibratedModel& model, const DataSet& data, const Rows& rows, const CertifiedRun& run) {
+Certificate stated(const CalibratedModel& model, const DataSet& data, const CertifiedRows& rows,
+                   const CertifiedRun& run) {
   Certificate certificate{.fields = run.fields,
                           .robot = run.fields.text("robot").empty() ? model.nominal.name : run.fields.text("robot"),
                           .job = model.job,
@@ -218,8 +219,8 @@ Certificate stated(const CalibratedModel& model, const DataSet& data, const Rows
 }
 
 /// Fills in what measured positions, or lengths from fixed points, tell.
-void judge_positions(const CalibratedModel& model, const DataSet& data, const Rows& rows, const CertifiedRun& run,
-                     Certificate& certificate) {
+void judge_positions(const CalibratedModel& model, const DataSet& data, const CertifiedRows& rows,
+                     const CertifiedRun& run, Certificate& certificate) {
   const DeclaredModel base_and_tool{.registration = true, .tool = model.declared.tool};
   const CorrectedRobot after =
       run.refit_base ? refitted(data, {.registration = true, .tool = true}, model.robot) : model.robot;
@@ -243,7 +244,7 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ro
 }  // namespace
 
 Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run) {
-  const Rows rows = judged_poses(data);
+  const CertifiedRows rows = judged_poses(data);
   if (rows.empty()) throw InputError({data.file, 0}, "", "holds no pose to judge");
   Certificate certificate = stated(model, data, rows, run);
   if (touch_alone(data, rows)) {

@@ -24,7 +24,7 @@ void fields(auto& visit, Like<CertifiedPose> auto& pose) {
 
 namespace {
 
-std::optional<double> in_mm(const std::optional<double>& value_m) {
+std::optional<double> millimetres_if_any(const std::optional<double>& value_m) {
   if (!value_m) return std::nullopt;
   return millimetres(*value_m);
 }
@@ -34,9 +34,9 @@ std::optional<double> in_mm(const std::optional<double>& value_m) {
 void fields(auto& visit, Like<Judgement> auto& judged) {
   visit("verdict", std::string(to_string(judged.verdict)), "tolerance_mm", millimetres(judged.tolerance_m),
         "share_of_poses", kAcceptedShare, "confidence", kConfidence, "error_mm", millimetres(judged.error_m),
-        "lower_mm", in_mm(judged.lower_m), "upper_mm", in_mm(judged.upper_m), "guard_below_mm",
-        millimetres(judged.guard_below_m), "guard_above_mm", millimetres(judged.guard_above_m), "poses", judged.poses,
-        "beyond", judged.beyond, "assumes_normal", judged.assumes_normal);
+        "lower_mm", millimetres_if_any(judged.lower_m), "upper_mm", millimetres_if_any(judged.upper_m),
+        "guard_below_mm", millimetres(judged.guard_below_m), "guard_above_mm", millimetres(judged.guard_above_m),
+        "poses", judged.poses, "beyond", judged.beyond, "assumes_normal", judged.assumes_normal);
 }
 
 void fields(auto& visit, Like<Certificate> auto& certificate) {

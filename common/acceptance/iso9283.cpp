@@ -7,14 +7,16 @@
 #include <tuple>
 #include <utility>
 
+#include "data/text.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline acceptance {
 namespace {
 
-using Poses = std::vector<AttainedPose>;
+using AttainedPoses = std::vector<AttainedPose>;
 
 std::string approach_text(const MeasuredPose& pose) {
   std::string text;
@@ -24,22 +26,16 @@ std::string approach_text(const MeasuredPose& pose) {
   return text;
 }
 
-double mean_of(const std::vector<double>& values) {
-  double sum = 0.0;
-  for (const double value : values) sum += value;
-  return sum / static_cast<double>(values.size());
-}
-
 /// Mean and three standard deviations of the distances from the barycentre.
 double repeatability_m(const std::vector<Eigen::Vector3d>& attained_m) {
   Eigen::Vector3d centre = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : attained_m) centre += point / static_cast<double>(attained_m.size());
   std::vector<double> distances;
   for (const Eigen::Vector3d& point : attained_m) distances.push_back((point - centre).norm());
-  const double mean = mean_of(distances);
+  const double mean_m = mean(distances);
   double squares = 0.0;
-  for (const double distance : distances) squares += (distance - mean) * (distance - mean);
-  return mean + 3.0 * std::sqrt(squares / static_cast<double>(distances.size() - 1));
+  for (const double distance : distances) squares += (distance - mean_m) * (distance - mean_m);
+  return mean_m + 3.0 * std::sqrt(squares / static_cast<double>(distances.size() - 1));
 }
 
 /// Fills what follows from the rows of the pose.
@@ -65,11 +61,7 @@ void evaluate(const DataSet& data, const CorrectedRobot& robot, AttainedPose& po
   if (attained_m.size() > 1) pose.repeatability_m = repeatability_m(attained_m);
 }
 
-std::string counted(std::size_t count, const char* what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-Characteristic pose_accuracy(const Poses& poses) {
+Characteristic pose_accuracy(const AttainedPoses& poses) {
   Characteristic one{"AP", "Pose accuracy (position), largest", "7.2.1", {}, "no position was measured"};
   if (poses.empty()) return one;
   std::vector<double> values;
@@ -83,11 +75,11 @@ Characteristic pose_accuracy(const Poses& poses) {
   const std::string repeats =
       fewest == most ? counted(most, "measurement") : fmt::format("{} to {} measurements", fewest, most);
   one.basis =
-      fmt::format("{}, {} each; mean {:.3f} mm", counted(poses.size(), "pose"), repeats, millimetres(mean_of(values)));
+      fmt::format("{}, {} each; mean {:.3f} mm", counted(poses.size(), "pose"), repeats, millimetres(mean(values)));
   return one;
 }
 
-Characteristic pose_repeatability(const Poses& poses) {
+Characteristic pose_repeatability(const AttainedPoses& poses) {
   Characteristic one{"RP", "Pose repeatability (position), largest", "7.2.2", {}, "no pose was measured repeatedly"};
   std::vector<double> values;
   std::size_t fewest = SIZE_MAX;
@@ -99,12 +91,12 @@ Characteristic pose_repeatability(const Poses& poses) {
   if (values.empty()) return one;
   one.value_mm = millimetres(std::ranges::max(values));
   one.basis = fmt::format("{}, at least {} each; mean {:.3f} mm", counted(values.size(), "pose"),
-                          counted(fewest, "measurement"), millimetres(mean_of(values)));
+                          counted(fewest, "measurement"), millimetres(mean(values)));
   return one;
 }
 
 /// The poses by id and target, each with its attained poses of all approaches.
-std::map<std::pair<std::string, std::string>, std::vector<const AttainedPose*>> by_pose(const Poses& poses) {
+std::map<std::pair<std::string, std::string>, std::vector<const AttainedPose*>> by_pose(const AttainedPoses& poses) {
   std::map<std::pair<std::string, std::string>, std::vector<const AttainedPose*>> all;
   for (const AttainedPose& pose : poses) {
     if (pose.has_position) all[{pose.id, pose.target}].push_back(&pose);
@@ -112,7 +104,7 @@ std::map<std::pair<std::string, std::string>, std::vector<const AttainedPose*>> 
   return all;
 }
 
-Characteristic direction_variation(const Poses& poses) {
+Characteristic direction_variation(const AttainedPoses& poses) {
   Characteristic one{"vAP",
                      "Multi-directional pose accuracy variation, largest",
                      "7.2.3",
@@ -133,7 +125,7 @@ Characteristic direction_variation(const Poses& poses) {
   return one;
 }
 
-Characteristic distance_accuracy(const Poses& poses) {
+Characteristic distance_accuracy(const AttainedPoses& poses) {
   constexpr std::size_t kMostPoses = 500;
   Characteristic one{"AD", "Distance accuracy, largest", "7.3.2", {}, "fewer than two positions were measured"};
   std::vector<const AttainedPose*> taken;
@@ -187,10 +179,10 @@ struct SeriesDrift {
   std::size_t poses = 0;
 };
 
-SeriesDrift drift_of(const DataSet& data, const Poses& poses, const CorrectedRobot& robot) {
+SeriesDrift drift_of(const DataSet& data, const AttainedPoses& poses, const CorrectedRobot& robot) {
   SeriesDrift drift;
   for (const AttainedPose& pose : poses) {
-    const std::vector<AttainedPose> series = pose.has_position ? series_of(data, pose, robot) : Poses{};
+    const std::vector<AttainedPose> series = pose.has_position ? series_of(data, pose, robot) : AttainedPoses{};
     if (series.size() < 2) continue;
     ++drift.poses;
     const double begin_s = *data.poses[series.front().rows.front()].time_s;

@@ -23,7 +23,8 @@ Eigen::Vector3d tool_m(const CorrectedRobot& robot, const MeasuredPose& pose) {
 }
 
 /// As view_of() positions: where the model has the ends of the lengths.
-CertifiedView view_of(const DataSet& data, const std::vector<TouchedLength>& lengths, const CorrectedRobot& robot) {
+CertifiedView view_of_lengths(const DataSet& data, const std::vector<TouchedLength>& lengths,
+                              const CorrectedRobot& robot) {
   CertifiedView view{.arm = arm_points(robot, data.poses[lengths.front().rows.front()])};
   for (const TouchedLength& length : lengths)
     for (const Eigen::Vector3d& end_m : length.ends_m) view.points_m.emplace_back(end_m, length.error_m);
@@ -36,7 +37,7 @@ std::vector<double> errors_in_m(const std::vector<TouchedLength>& lengths) {
   return errors_m;
 }
 
-SetErrors errors_of(const std::vector<TouchedLength>& lengths) {
+SetErrors errors_of_lengths(const std::vector<TouchedLength>& lengths) {
   std::vector<double> errors_mm;
   for (const TouchedLength& length : lengths) errors_mm.push_back(millimetres(length.error_m));
   return set_errors(error_figures(std::move(errors_mm)));
@@ -48,8 +49,8 @@ double sigma_m(const std::vector<TouchedLength>& lengths) {
       .known->sigma_m;
 }
 
-std::vector<CertifiedPose> certified_poses(const DataSet& data, const std::vector<TouchedLength>& before,
-                                           const std::vector<TouchedLength>& after, double tolerance_m) {
+std::vector<CertifiedPose> certified_lengths(const DataSet& data, const std::vector<TouchedLength>& before,
+                                             const std::vector<TouchedLength>& after, double tolerance_m) {
   std::vector<CertifiedPose> poses;
   for (std::size_t i = 0; i < after.size(); ++i) {
     const auto& [first, second] = after[i].rows;
@@ -114,8 +115,8 @@ void judge_lengths(const CalibratedModel& model, const DataSet& data, std::span<
                          "can be judged (contacts.distances in DATASET.yaml)");
   }
   certificate.words = kJudgedLengths;
-  certificate.before = errors_of(before);
-  certificate.after = errors_of(after);
+  certificate.before = errors_of_lengths(before);
+  certificate.after = errors_of_lengths(after);
   certificate.before_words =
       model.declared.tool ? "as its maker describes it, tool fitted" : "as its maker describes it";
   certificate.characteristics = characteristics(data, {}, model.robot);
@@ -127,8 +128,8 @@ void judge_lengths(const CalibratedModel& model, const DataSet& data, std::span<
   const double noise_m = model.interval ? std::sqrt(2.0) * model.interval->noise_m : 0.0;
   certificate.judgement = judge(errors_in_m(after), run.tolerance_m, sigma_m(after), noise_m);
   certificate.poses_to_decide = poses_to_decide(errors_in_m(after), certificate.judgement);
-  certificate.poses = certified_poses(data, before, after, run.tolerance_m);
-  certificate.view = view_of(data, after, model.robot);
+  certificate.poses = certified_lengths(data, before, after, run.tolerance_m);
+  certificate.view = view_of_lengths(data, after, model.robot);
 }
 
 }  // namespace demecal::inline acceptance

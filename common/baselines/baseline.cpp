@@ -17,7 +17,7 @@
 namespace demecal::inline baselines {
 namespace {
 
-constexpr int kHighestDegree = 3;
+constexpr int kHighestPolynomial = 3;
 constexpr std::size_t kMostCoefficients = 1000;  // of polynomials: beyond, a lower degree has to do
 
 /// The parameter that the joint's variable adds to.
@@ -90,7 +90,7 @@ std::vector<LinkFunction> polynomials(const RegisteredArm& arm, int degree) {
 BaselineFit joint_polynomials(const RegisteredArm& arm) {
   BaselineFit best;
   double least = std::numeric_limits<double>::infinity();
-  for (int degree = 1; degree <= kHighestDegree; ++degree) {
+  for (int degree = 1; degree <= kHighestPolynomial; ++degree) {
     const std::vector<LinkFunction> functions = polynomials(arm, degree);
     if (functions.size() > kMostCoefficients) break;
     VaryingFit fit = fit_varying_links(arm, functions);

@@ -23,7 +23,7 @@ namespace demecal::inline baselines {
 namespace {
 
 constexpr int kFoldsOfLinks = 5;
-constexpr int kMostSteps = 6;
+constexpr int kMostRelinearizations = 6;
 constexpr double kSmallStep = 1e-9;  // of the rows' norm: nothing is left to gain
 
 /// The model: every parameter of base and tool is a coefficient of its own, every function's coefficient adds to a link
@@ -81,7 +81,7 @@ class VaryingModel {
   ParameterSpace space_;
 };
 
-RowScales scales_of(const RegisteredArm& arm, const std::vector<Observation>& observations) {
+RowScales registered_scales(const RegisteredArm& arm, const std::vector<Observation>& observations) {
   RowScales scales = root_mean_squares(arm.data, arm.robot, observations);
   if (!arm.base_and_tool.tool && scales[kOrientation] > kMountedOtherwise_rad) scales[kOrientation] = 0.0;
   return scales;
@@ -110,18 +110,18 @@ VaryingFit fit_varying_links(const RegisteredArm& arm, const std::vector<LinkFun
   const auto model = std::make_shared<const VaryingModel>(arm, functions);
   const std::vector<Observation> observations = observe(arm.data, arm.poses, arm.robot);
   const std::vector<int> folds = assign_folds(arm.data, arm.poses, kFoldsOfLinks);
-  const RowScales scales = scales_of(arm, observations);
+  const RowScales scales = registered_scales(arm, observations);
   Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(model->size());
   std::vector<RidgeSums> sums = sums_at(arm, *model, scales, observations, folds, coefficients);
   const RidgeChoice choice = choose_ridge(sums, model->weight());
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostRelinearizations; ++step) {
     const RidgeSums all = sum_of_parts(sums);
     const Eigen::VectorXd change = ridge_solution(all, model->weight(), choice.ridge, coefficients);
     coefficients += change;
     if (std::abs(change.dot(all.square * change)) < kSmallStep * kSmallStep * static_cast<double>(arm.poses.size())) {
       break;
     }
-    if (step + 1 < kMostSteps) sums = sums_at(arm, *model, scales, observations, folds, coefficients);
+    if (step + 1 < kMostRelinearizations) sums = sums_at(arm, *model, scales, observations, folds, coefficients);
   }
   VaryingFit result{{}, choice.cost, choice.ridge};
   result.fit.parameters = static_cast<int>(model->size());

@@ -25,8 +25,8 @@ namespace {
 /// A laser tracker's, m, rad and m: exact data must not make the joints take up what no joint can.
 constexpr RowScales kInstrument{2e-5, 5e-5, 2e-5};
 constexpr double kSmallestShare = 0.01, kShareStep = 1.25;
-constexpr int kMostSteps = 50;
-constexpr double kSettled = 1e-10;  ///< of a step, in standard deviations
+constexpr int kMostNewtonSteps = 50;
+constexpr double kSettledStep = 1e-10;  ///< of a step, in standard deviations
 
 RowScales scales_with_share(const RowScales& residuals, double share) {
   RowScales scales{};
@@ -129,12 +129,12 @@ std::optional<JointVector> most_probable_errors(const DataSet& data, const Measu
   };
   Eigen::VectorXd x = Eigen::VectorXd::Zero(mean.size());
   JointRows rows = rows_for(x);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostNewtonSteps; ++step) {
     const Eigen::VectorXd next =
         rows.jacobian.transpose() * rows.covariance(scales).solve(rows.residual + rows.jacobian * x);
     const Eigen::VectorXd change = next - x;
     if (!change.allFinite()) return std::nullopt;
-    if (change.norm() < kSettled) return errors(x);
+    if (change.norm() < kSettledStep) return errors(x);
     double fraction = 1.0;
     const double present = misfit(rows, x, scales);
     for (; fraction > 1e-4; fraction /= 2.0) {

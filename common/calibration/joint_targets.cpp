@@ -101,7 +101,7 @@ class ExactTargets {
   InverseOptions options_;
 };
 
-JointBelief belief_of(const Chain& chain, const TargetRule& rule) {
+JointBelief joint_belief(const Chain& chain, const TargetRule& rule) {
   JointBelief belief{Eigen::VectorXd::Constant(chain.size(), rule.options.joint_error_rad), rule.mean};
   for (int joint = 0; joint < chain.size(); ++joint) {
     if (!is_revolute(chain, joint)) belief.deviation[joint] *= kPrismaticPerRevolute_m;
@@ -111,7 +111,7 @@ JointBelief belief_of(const Chain& chain, const TargetRule& rule) {
 
 std::vector<PoseTarget> posterior_targets(const DataSet& data, std::span<const std::size_t> poses,
                                           const CorrectedRobot& robot, const TargetRule& rule) {
-  const JointBelief belief = belief_of(robot.chain, rule);
+  const JointBelief belief = joint_belief(robot.chain, rule);
   const RowScales scales = measurement_scales(data, poses, robot, belief, rule.residuals);
   std::vector<PoseTarget> targets;
   for (const std::size_t index : poses) {

@@ -23,7 +23,6 @@
 namespace demecal::inline calibration {
 namespace {
 
-constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
 /// Below it a formula per joint fits anything.
 constexpr std::size_t kLeastPoses = 6;
 constexpr int kSmoothSteps = 12;  ///< of Gauss and Newton
@@ -34,7 +33,7 @@ void require_poses(std::size_t poses, const DataSet& data, const Job& job) {
                    "calibration poses are too few: joint corrections need at least " + std::to_string(kLeastPoses));
 }
 
-void require(const Fit& fit, const DataSet& data) {
+void require_fit(const Fit& fit, const DataSet& data) {
   if (fit.status == FitStatus::too_few_poses) throw InputError({data.file, 0}, "", fit.sentence);
   if (fit.status == FitStatus::not_converged)
     throw InputError({data.file, 0}, "", "no model fits these poses: " + fit.sentence);
@@ -63,8 +62,8 @@ RowScales residual_scales(const DataSet& data, std::span<const std::size_t> pose
 struct CorrectionSize {
   double joint_rad = 0.0, position_m = 0.0, orientation_rad = 0.0;
 };
-CorrectionSize size_of(std::size_t joint, const DataSet& data, std::span<const std::size_t> poses,
-                       const CorrectedRobot& corrected) {
+CorrectionSize correction_size(std::size_t joint, const DataSet& data, std::span<const std::size_t> poses,
+                               const CorrectedRobot& corrected) {
   CorrectedRobot without = corrected;
   without.corrections[joint] = JointCorrection{};
   double joint_rad2 = 0.0, position_m2 = 0.0, orientation_rad2 = 0.0;
@@ -88,7 +87,7 @@ void drop_unobservable_corrections(const DataSet& data, std::span<const std::siz
   constexpr double kUnobservable = 0.3;  ///< of the scatter
   for (std::size_t joint = 0; joint < robot.corrections.size(); ++joint) {
     if (robot.corrections[joint].is_neutral()) continue;
-    const CorrectionSize size = size_of(joint, data, poses, robot);
+    const CorrectionSize size = correction_size(joint, data, poses, robot);
     if (size.joint_rad < joint_error_rad) continue;
     const double scatter_m = std::max(scatter[kPosition], scatter[kDistance]);
     const bool turns = scatter[kOrientation] > 0.0 && size.orientation_rad > kUnobservable * scatter[kOrientation];
@@ -143,9 +142,9 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   require_poses(poses.size(), data, job);
   preparation.registered = fit_registration(data, poses, job.declared, preparation.nominal, options);
-  require(preparation.registered, data);
+  require_fit(preparation.registered, data);
   preparation.declared = fit_declared(data, poses, job.declared, preparation.registered.robot, options);
-  require(preparation.declared, data);
+  require_fit(preparation.declared, data);
   if (job.declared.joint_corrections) {
     preparation.targets = first_targets(data, job, preparation);
     preparation.training = training_tables(preparation.declared.robot.chain, preparation.targets, job.corrections);
@@ -160,11 +159,11 @@ Preparation prepare_from(const DataSet& data, const DeclaredModel& declared, con
   preparation.target_options = target_options;
   preparation.nominal = nominal_robot(data);
   preparation.registered = fit_registration(data, poses, declared, preparation.nominal);
-  require(preparation.registered, data);
+  require_fit(preparation.registered, data);
   const Fit placed = fit_registration(data, poses, declared, placed_in_frame(data, poses, model));
-  require(placed, data);
+  require_fit(placed, data);
   preparation.declared = fit_declared(data, poses, declared, placed.robot, {.starts = 0});
-  require(preparation.declared, data);
+  require_fit(preparation.declared, data);
   if (declared.joint_corrections || has_corrections(model)) {
     preparation.targets = targets_about(data, preparation, preparation.declared.robot);
   }

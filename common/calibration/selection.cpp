@@ -107,7 +107,7 @@ JointCorrection choose(const PoseEvaluators& evaluators, CorrectedRobot robot, c
   return choice.kept ? chosen->correction : JointCorrection{};
 }
 
-bool same(const JointCorrection& a, const JointCorrection& b) {
+bool same_correction(const JointCorrection& a, const JointCorrection& b) {
   return a.is_neutral() == b.is_neutral() && a.formula() == b.formula();
 }
 
@@ -121,7 +121,7 @@ Selection sweep(const PoseEvaluators& evaluators, Selection selection, std::span
       JointCorrection& present = selection.robot.corrections[candidates[i].training.joint];
       const JointCorrection next =
           choose(evaluators, selection.robot, candidates[i].training, admissible[i], selection.choices[i]);
-      changed = changed || !same(present, next);
+      changed = changed || !same_correction(present, next);
       present = next;
     }
   }

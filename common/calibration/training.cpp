@@ -48,7 +48,7 @@ Tree divided(const Tree& formula, double divisor) {
 }
 
 /// Of the scale, one node, and the tree.
-const Tree& product_of(const JointCorrection& correction) {
+const Tree& scaled_product(const JointCorrection& correction) {
   const Tree& product = correction.formula();
   DEMECAL_CHECK(
       product.size() > 2 && product[0].primitive == Primitive::multiply && product[1].primitive == Primitive::constant,
@@ -112,12 +112,12 @@ JointCorrection correction_from(const JointTraining& training, const Tree& evolv
 }
 
 Tree evolved_tree(const JointCorrection& correction) {
-  const Tree& product = product_of(correction);
+  const Tree& product = scaled_product(correction);
   return {product.begin() + 2, product.end()};
 }
 
 double evolved_scale_rad(const JointCorrection& correction) {
-  return product_of(correction)[1].value;
+  return scaled_product(correction)[1].value;
 }
 
 double correction_limit_rad(const JointTraining& training) {

@@ -14,7 +14,7 @@
 namespace demecal::inline certificate {
 namespace {
 
-constexpr std::string_view kStyle = R"css(
+constexpr std::string_view kCertificateStyle = R"css(
 @page { size: A4; margin: 18mm 16mm 20mm 16mm;
   @bottom-right { content: "Page " counter(page) " of " counter(pages); font: 9pt sans-serif; color: #444; } }
 body { margin: 0 auto; max-width: 178mm; padding: 12px; background: #ffffff; color: #14191e; font: 10.5pt/1.42 "Helvetica Neue", Arial, "DejaVu Sans", sans-serif; }
@@ -31,21 +31,21 @@ table.signatures td { border: 0; padding: 34pt 18pt 0 0; width: 50%; } table.sig
 )css";
 
 /// Poses listed one by one; of more, those with the largest errors.
-constexpr std::size_t kMostPoses = 60;
+constexpr std::size_t kMostListedPoses = 60;
 
-std::string fact(const std::string& title, const std::string& value) {
+std::string fact_row(const std::string& title, const std::string& value) {
   if (value.empty()) return "<tr><th scope=\"row\">" + escaped(title) + "</th><td class=\"blank\"></td></tr>\n";
   return "<tr><th scope=\"row\">" + escaped(title) + "</th><td>" + escaped(value) + "</td></tr>\n";
 }
 
-std::string mm(std::optional<double> value) {
+std::string mm_figure(std::optional<double> value) {
   return fixed(value, 3);
 }
 
-std::string head(const Certificate& certificate) {
+std::string document_head(const Certificate& certificate) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
          "content=\"width=device-width, initial-scale=1\">\n<title>" +
-         escaped(certificate.robot) + " – calibration certificate</title>\n<style>" + std::string(kStyle) +
+         escaped(certificate.robot) + " – calibration certificate</title>\n<style>" + std::string(kCertificateStyle) +
          "</style>\n</head>\n";
 }
 
@@ -56,16 +56,16 @@ std::string people(const Certificate& certificate) {
     std::string value = certificate.fields.text(key);
     if (key == "robot") value = certificate.robot;
     if (value.empty() && !field.expected) continue;
-    rows += fact(field.title, value);
+    rows += fact_row(field.title, value);
   }
   if (certificate.fields.instrument_uncertainty_m) {
-    rows +=
-        fact("Uncertainty of the instrument",
-             fmt::format("U = {:g} mm (k = 2), as stated", millimetres(*certificate.fields.instrument_uncertainty_m)));
+    rows += fact_row(
+        "Uncertainty of the instrument",
+        fmt::format("U = {:g} mm (k = 2), as stated", millimetres(*certificate.fields.instrument_uncertainty_m)));
   } else {
-    rows += fact("Uncertainty of the instrument", "");
+    rows += fact_row("Uncertainty of the instrument", "");
   }
-  rows += fact("Date of this document", certificate.issued_on);
+  rows += fact_row("Date of this document", certificate.issued_on);
   std::string missing;
   for (const std::string& title : certificate.missing) missing += (missing.empty() ? "" : "; ") + escaped(title);
   return "<h2>Whose robot, measured how</h2>\n<table class=\"facts\">\n" + rows + "</table>\n" +
@@ -78,20 +78,20 @@ std::string verdict(const Certificate& certificate) {
   const auto limit = [](const std::optional<double>& value_m) {
     return value_m ? fmt::format("{:.3f} mm", millimetres(*value_m)) : std::string("none with so few poses");
   };
-  std::string rows = fact("Tolerance", fmt::format("{:g} mm", millimetres(judged.tolerance_m)));
-  rows += fact(
+  std::string rows = fact_row("Tolerance", fmt::format("{:g} mm", millimetres(judged.tolerance_m)));
+  rows += fact_row(
       fmt::format("Error that {:.0f} % of the judged {} keep within", 100.0 * kAcceptedShare, certificate.words.poses),
       fmt::format("{:.3f} mm", millimetres(judged.error_m)));
-  rows += fact(fmt::format("The same of all {} like these, at most ({:.1f} % confidence)", certificate.words.poses,
-                           100.0 * kConfidence),
-               limit(judged.upper_m));
-  rows += fact(fmt::format("and at least ({:.1f} % confidence)", 100.0 * kConfidence), limit(judged.lower_m));
-  rows +=
-      fact("Guard band below the tolerance, above it (k = 2)",
-           fmt::format("{:.3f} mm, {:.3f} mm", millimetres(judged.guard_below_m), millimetres(judged.guard_above_m)));
-  rows +=
-      fact("Judged, of these beyond the tolerance",
-           fmt::format("{} {} {}, {}", judged.poses, certificate.judged_set, certificate.words.poses, judged.beyond));
+  rows += fact_row(fmt::format("The same of all {} like these, at most ({:.1f} % confidence)", certificate.words.poses,
+                               100.0 * kConfidence),
+                   limit(judged.upper_m));
+  rows += fact_row(fmt::format("and at least ({:.1f} % confidence)", 100.0 * kConfidence), limit(judged.lower_m));
+  rows += fact_row(
+      "Guard band below the tolerance, above it (k = 2)",
+      fmt::format("{:.3f} mm, {:.3f} mm", millimetres(judged.guard_below_m), millimetres(judged.guard_above_m)));
+  rows += fact_row(
+      "Judged, of these beyond the tolerance",
+      fmt::format("{} {} {}, {}", judged.poses, certificate.judged_set, certificate.words.poses, judged.beyond));
   return "<div class=\"verdict\" id=\"verdict\"><b>" + escaped(to_string(judged.verdict)) + "</b><p>" +
          escaped(verdict_sentence(certificate)) + "</p>" + (remedy.empty() ? "" : "<p>" + escaped(remedy) + "</p>") +
          "</div>\n<table class=\"facts\">\n" + rows +
@@ -106,7 +106,7 @@ std::string results(const Certificate& certificate) {
   const auto row = [](const std::string& words, const SetErrors& errors) {
     std::string cells;
     for (const std::optional<double>& value : {errors.mean_mm, errors.rms_mm, errors.p95_mm, errors.max_mm})
-      cells += "<td class=\"number\">" + mm(value) + "</td>";
+      cells += "<td class=\"number\">" + mm_figure(value) + "</td>";
     return "<tr><th scope=\"row\">" + escaped(words) + "</th>" + cells + "</tr>\n";
   };
   return fmt::format(
@@ -124,8 +124,8 @@ std::string criteria(const Certificate& certificate) {
   for (const Characteristic& one : certificate.characteristics) {
     rows += "<tr><th scope=\"row\">" + escaped(one.symbol) + "</th><td>" + escaped(one.title) + "</td><td>" +
             escaped(one.clause) + "</td><td class=\"number\">" +
-            (one.value_mm ? mm(one.value_mm) + " mm" : std::string("not measured")) + "</td><td>" + escaped(one.basis) +
-            "</td></tr>\n";
+            (one.value_mm ? mm_figure(one.value_mm) + " mm" : std::string("not measured")) + "</td><td>" +
+            escaped(one.basis) + "</td></tr>\n";
   }
   return "<h2>Performance criteria (ISO 9283)</h2>\n<table id=\"criteria\">\n<thead><tr><th></th><th>criterion</th><th>"
          "clause</th><th class=\"number\">value</th><th>of</th></tr></thead>\n<tbody>\n" +
@@ -138,13 +138,13 @@ std::string budget(const Certificate& certificate) {
   std::string rows;
   for (const UncertaintyContribution& one : entry.contributions) {
     rows += "<tr><th scope=\"row\">" + escaped(one.name) + "</th><td>type " + escaped(one.type) +
-            "</td><td class=\"number\">" + (one.standard_mm ? mm(one.standard_mm) : std::string("not stated")) +
+            "</td><td class=\"number\">" + (one.standard_mm ? mm_figure(one.standard_mm) : std::string("not stated")) +
             "</td></tr>\n";
   }
   rows +=
-      "<tr><th scope=\"row\">standard uncertainty</th><td></td><td class=\"number\">" + mm(entry.standard_mm) +
+      "<tr><th scope=\"row\">standard uncertainty</th><td></td><td class=\"number\">" + mm_figure(entry.standard_mm) +
       "</td></tr>\n<tr><th scope=\"row\">expanded uncertainty, k = 2, about 95 %</th><td></td><td class=\"number\">" +
-      mm(entry.expanded_mm) + "</td></tr>\n";
+      mm_figure(entry.expanded_mm) + "</td></tr>\n";
   return "<h2>Uncertainty of a corrected position</h2>\n<table id=\"uncertainty\">\n<thead><tr><th>contribution</th>"
          "<th></th><th class=\"number\">mm</th></tr></thead>\n<tbody>\n" +
          rows +
@@ -152,10 +152,11 @@ std::string budget(const Certificate& certificate) {
          escaped(entry.remark) + ".</p>\n";
 }
 
-std::string conditions(const Certificate& certificate) {
+std::string conditions_section(const Certificate& certificate) {
   std::string rows;
   for (const Condition& one : certificate.conditions) {
-    rows += fact(one.name + ", " + one.unit, one.lower && one.upper ? fixed(one.lower, 2) + " to " + fixed(one.upper, 2)
+    rows +=
+        fact_row(one.name + ", " + one.unit, one.lower && one.upper ? fixed(one.lower, 2) + " to " + fixed(one.upper, 2)
                                                                     : std::string("not recorded"));
   }
   return "<h2>Conditions</h2>\n<table class=\"facts\" id=\"conditions\">\n" + rows + "</table>\n";
@@ -163,14 +164,14 @@ std::string conditions(const Certificate& certificate) {
 
 std::string pose_list(const Certificate& certificate) {
   std::string rows;
-  const std::size_t shown = std::min(kMostPoses, certificate.poses.size());
+  const std::size_t shown = std::min(kMostListedPoses, certificate.poses.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const CertifiedPose& pose = certificate.poses[i];
     rows += "<tr><th scope=\"row\">" + escaped(pose.id) + (pose.target.empty() ? "" : " " + escaped(pose.target)) +
             fmt::format(
                 "</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
                 "<td class=\"number\">{}</td><td>{}</td></tr>\n",
-                pose.measurements, mm(pose.before_mm), mm(pose.after_mm), mm(pose.uncertainty_mm),
+                pose.measurements, mm_figure(pose.before_mm), mm_figure(pose.after_mm), mm_figure(pose.uncertainty_mm),
                 pose.beyond ? "beyond the tolerance" : "");
   }
   const std::string title =
@@ -186,16 +187,16 @@ std::string pose_list(const Certificate& certificate) {
          "</tbody></table></div>\n";
 }
 
-std::string provenance(const Certificate& certificate) {
+std::string provenance_section(const Certificate& certificate) {
   const auto hash = [](const std::string& title, const std::string& value) {
     return "<tr><th scope=\"row\">" + title + "</th><td class=\"hash\">" + escaped(value) + "</td></tr>\n";
   };
-  return "<h2>What this rests on</h2>\n<table class=\"facts\">\n" + fact("Data", certificate.data_name) +
+  return "<h2>What this rests on</h2>\n<table class=\"facts\">\n" + fact_row("Data", certificate.data_name) +
          hash("SHA-256 of the data", certificate.data_sha256) +
-         fact("Model", "job " + certificate.job + ", demecal " + certificate.model_version) +
+         fact_row("Model", "job " + certificate.job + ", demecal " + certificate.model_version) +
          hash("SHA-256 of the model", certificate.model_sha256) +
          hash("SHA-256 of the data it was calibrated with", certificate.model_data_sha256) +
-         fact("This document was made by", "demecal " + certificate.version) + "</table>\n";
+         fact_row("This document was made by", "demecal " + certificate.version) + "</table>\n";
 }
 
 std::string remarks(const Certificate& certificate) {
@@ -212,12 +213,12 @@ constexpr std::string_view kSignatures =
 
 std::string certificate_html(const Certificate& certificate) {
   const std::string number = certificate.fields.text("certificate_number");
-  return head(certificate) + "<body>\n<h1>Calibration certificate</h1>\n<p>" + escaped(certificate.robot) +
+  return document_head(certificate) + "<body>\n<h1>Calibration certificate</h1>\n<p>" + escaped(certificate.robot) +
          (number.empty() ? "" : " · " + escaped(number)) + "</p>\n" + verdict(certificate) + results(certificate) +
          remarks(certificate) + people(certificate) + criteria(certificate) + budget(certificate) +
-         conditions(certificate) + "<h2>Measured volume</h2>\n" +
+         conditions_section(certificate) + "<h2>Measured volume</h2>\n" +
          volume_picture(certificate.view, certificate.judgement.tolerance_m) + pose_list(certificate) +
-         provenance(certificate) + std::string(kSignatures) + "</body>\n</html>\n";
+         provenance_section(certificate) + std::string(kSignatures) + "</body>\n</html>\n";
 }
 
 }  // namespace demecal::inline certificate

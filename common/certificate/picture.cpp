@@ -12,7 +12,7 @@
 namespace demecal::inline certificate {
 namespace {
 
-constexpr double kWidth = 330.0, kHeight = 250.0, kMargin = 26.0;
+constexpr double kPictureWidth = 330.0, kPictureHeight = 250.0, kPictureMargin = 26.0;
 constexpr std::size_t kMostPoints = 600;
 
 /// Two of the three axes, as a picture shows them.
@@ -28,14 +28,15 @@ class SideView {
     for (const Eigen::Vector3d& point : view.arm) widen(point);
     for (const auto& [point, error] : view.points_m) widen(point);
     const Eigen::Vector2d size = (upper_ - lower_).cwiseMax(1e-6);
-    scale_ = std::min((kWidth - 2.0 * kMargin) / size.x(), (kHeight - 2.0 * kMargin) / size.y());
+    scale_ =
+        std::min((kPictureWidth - 2.0 * kPictureMargin) / size.x(), (kPictureHeight - 2.0 * kPictureMargin) / size.y());
   }
 
   /// Where a point stands in the picture, px.
   Eigen::Vector2d operator()(const Eigen::Vector3d& point) const {
     const Eigen::Vector2d middle = 0.5 * (lower_ + upper_);
-    return {0.5 * kWidth + scale_ * (point[side_.right] - middle.x()),
-            0.5 * kHeight - scale_ * (point[side_.up] - middle.y())};
+    return {0.5 * kPictureWidth + scale_ * (point[side_.right] - middle.x()),
+            0.5 * kPictureHeight - scale_ * (point[side_.up] - middle.y())};
   }
 
   double metres_of(double px) const { return px / scale_; }
@@ -63,7 +64,7 @@ std::string point_mark(const Eigen::Vector2d& at, double error_m, double toleran
 
 /// A line of round length.
 std::string scale_bar(const SideView& place) {
-  const double most_mm = millimetres(place.metres_of(0.3 * kWidth));
+  const double most_mm = millimetres(place.metres_of(0.3 * kPictureWidth));
   double length_mm = std::pow(10.0, std::floor(std::log10(most_mm)));
   for (const double factor : {5.0, 2.0}) {
     if (factor * length_mm <= most_mm) {
@@ -75,7 +76,7 @@ std::string scale_bar(const SideView& place) {
   return fmt::format(
       "<path d=\"M10 {0} h{1:.1f}\" stroke=\"#1b232b\" stroke-width=\"1.5\"/><text x=\"{2:.1f}\" y=\"{3}\" "
       "font-size=\"10\" fill=\"#1b232b\">{4:g} mm</text>\n",
-      kHeight - 8.0, px, 16.0 + px, kHeight - 4.0, length_mm);
+      kPictureHeight - 8.0, px, 16.0 + px, kPictureHeight - 4.0, length_mm);
 }
 
 std::string side_view(const CertifiedView& view, const Side& side, double tolerance_m) {
@@ -96,7 +97,7 @@ std::string side_view(const CertifiedView& view, const Side& side, double tolera
              "<rect x=\"0.5\" y=\"0.5\" width=\"{3}\" height=\"{4}\" fill=\"none\" stroke=\"#b8c0c7\"/>\n"
              "<polyline points=\"{5}\" fill=\"none\" stroke=\"#8b98a4\" stroke-width=\"5\" stroke-linejoin=\"round\"/>"
              "\n",
-             kWidth, kHeight, side.title, kWidth - 1.0, kHeight - 1.0, line) +
+             kPictureWidth, kPictureHeight, side.title, kPictureWidth - 1.0, kPictureHeight - 1.0, line) +
          marks + points + scale_bar(place) +
          fmt::format("<text x=\"10\" y=\"15\" font-size=\"10\" fill=\"#1b232b\">{}</text>\n</svg>\n", side.title);
 }

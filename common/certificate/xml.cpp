@@ -9,7 +9,7 @@
 namespace demecal::inline certificate {
 namespace {
 
-const xmlChar* bytes_of(const std::string& text) {
+const xmlChar* xml_bytes(const std::string& text) {
   return reinterpret_cast<const xmlChar*>(text.c_str());
 }
 
@@ -37,11 +37,11 @@ XmlDocument::~XmlDocument() {
 }
 
 void XmlDocument::open(const std::string& name) {
-  xmlTextWriterStartElement(writer_->writer, bytes_of(name));
+  xmlTextWriterStartElement(writer_->writer, xml_bytes(name));
 }
 
 void XmlDocument::attribute(const std::string& name, const std::string& value) {
-  xmlTextWriterWriteAttribute(writer_->writer, bytes_of(name), bytes_of(xml_text(value)));
+  xmlTextWriterWriteAttribute(writer_->writer, xml_bytes(name), xml_bytes(xml_text(value)));
 }
 
 void XmlDocument::close() {
@@ -49,7 +49,7 @@ void XmlDocument::close() {
 }
 
 void XmlDocument::leaf(const std::string& name, const std::string& text) {
-  xmlTextWriterWriteElement(writer_->writer, bytes_of(name), bytes_of(xml_text(text)));
+  xmlTextWriterWriteElement(writer_->writer, xml_bytes(name), xml_bytes(xml_text(text)));
 }
 
 std::string XmlDocument::text() {
@@ -64,7 +64,7 @@ std::string xml_text(const std::string& text) {
   bool blank = false;
   for (std::size_t at = 0; at < text.size();) {
     int length = static_cast<int>(text.size() - at);
-    const int letter = xmlGetUTF8Char(bytes_of(text) + at, &length);
+    const int letter = xmlGetUTF8Char(xml_bytes(text) + at, &length);
     std::string bytes = letter < 0 ? std::string("?") : text.substr(at, static_cast<std::size_t>(length));
     at += letter < 0 ? 1 : static_cast<std::size_t>(length);
     if (letter >= 0 && (letter < 0x20 || letter == ' ')) {

@@ -26,8 +26,8 @@ namespace {
 constexpr double kSmallestCoefficient = 1e-8;  ///< rad
 
 /// The declared numbers of the model with their standard errors; effects bring their own.
-std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredModel& declared,
-                                            const DiagnosedModel& model) {
+std::vector<ParameterEstimate> declared_estimates(const DataSet& data, const DeclaredModel& declared,
+                                                  const DiagnosedModel& model) {
   const Linearization linearization = linearize({data, declared, poses_of_last_fit(data), {}}, model);
   const ParameterSpace space(with_contacts_of(model.robot, linearization.ids, data), linearization.ids);
   const Eigen::MatrixXd to_values = value_jacobian(space, space.at(Eigen::VectorXd::Zero(space.size())));
@@ -44,7 +44,7 @@ std::vector<ParameterEstimate> estimates_of(const DataSet& data, const DeclaredM
   return estimates;
 }
 
-std::string why_neutral(const DeclaredModel& declared, const Joint& joint) {
+std::string why_uncorrected(const DeclaredModel& declared, const Joint& joint) {
   if (!declared.joint_corrections) return "joint corrections are not declared";
   if (!is_revolute(joint)) return "a prismatic joint";
   return "no correction earned its place, or the joint hardly moves";
@@ -90,7 +90,7 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
                            const DiagnosedModel& model) {
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
   Calibration result{.robot = without_negligible_corrections(data, with_shortened_corrections(model.robot)),
-                     .estimates = estimates_of(data, declared, model),
+                     .estimates = declared_estimates(data, declared, model),
                      .joints = {},
                      .unseen = {}};
   JointTargets now;
@@ -98,7 +98,7 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
   result.joints = joint_summaries(preparation.targets, now, result.robot);
   for (JointSummary& summary : result.joints) {
     if (summary.kept) continue;
-    summary.note = why_neutral(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);
+    summary.note = why_uncorrected(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);
   }
   result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
   result.index_after_mm2 = performance_index_mm2(result.robot, data, fitted);

@@ -9,7 +9,7 @@
 namespace demecal::inline closed_calibration {
 namespace {
 
-std::vector<Decoy> joined(std::vector<Decoy> earlier, const std::vector<Decoy>& later) {
+std::vector<Decoy> joined_decoys(std::vector<Decoy> earlier, const std::vector<Decoy>& later) {
   for (const Decoy& decoy : later) {
     const auto same = std::ranges::find(earlier, decoy.name, &Decoy::name);
     if (same == earlier.end()) {
@@ -23,7 +23,7 @@ std::vector<Decoy> joined(std::vector<Decoy> earlier, const std::vector<Decoy>& 
 }
 
 /// Each share is of what its own pass began with.
-std::optional<double> joined(std::optional<double> earlier, std::optional<double> later) {
+std::optional<double> joined_share(std::optional<double> earlier, std::optional<double> later) {
   if (!earlier || !later) return earlier ? earlier : later;
   return 1.0 - (1.0 - *earlier) * (1.0 - *later);
 }
@@ -45,13 +45,13 @@ LoopOutcome joined(LoopOutcome earlier, LoopOutcome later) {
   }
   later.rounds.insert(later.rounds.begin(), earlier.rounds.begin(), earlier.rounds.end());
   later.dropped.insert(later.dropped.begin(), earlier.dropped.begin(), earlier.dropped.end());
-  later.decoys = joined(std::move(earlier.decoys), later.decoys);
+  later.decoys = joined_decoys(std::move(earlier.decoys), later.decoys);
   if (later.independent_m == 0.0) {
     later.noise = earlier.noise;
     later.independent_m = earlier.independent_m;
   }
   if (earlier.lack_of_fit_p) later.lack_of_fit_p = earlier.lack_of_fit_p;
-  later.explained_share = joined(earlier.explained_share, later.explained_share);
+  later.explained_share = joined_share(earlier.explained_share, later.explained_share);
   return later;
 }
 

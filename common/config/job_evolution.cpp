@@ -62,7 +62,7 @@ std::vector<std::string> known_keys() {
   return keys;
 }
 
-Primitive function_of(const YamlNode& symbol) {
+Primitive read_primitive(const YamlNode& symbol) {
   std::vector<std::string> symbols;
   for (const PrimitiveTraits& known : kPrimitives) {
     if (known.arity == 0) continue;
@@ -73,7 +73,7 @@ Primitive function_of(const YamlNode& symbol) {
 }
 
 /// The node that a parameter was read from, or the map where it kept its default.
-const YamlNode& source_of(const ParameterFault& fault, const YamlNode& node) {
+const YamlNode& faulty_node(const ParameterFault& fault, const YamlNode& node) {
   const bool constants = fault.key.starts_with("constants_");
   const YamlNode* found = node.find(constants ? "constants_range" : fault.key);
   return found ? *found : node;
@@ -82,7 +82,7 @@ const YamlNode& source_of(const ParameterFault& fault, const YamlNode& node) {
 void check_together(const GpParameters& parameters, const YamlNode& node) {
   const auto fault = find_fault(parameters);
   if (!fault) return;
-  const YamlNode& source = source_of(*fault, node);
+  const YamlNode& source = faulty_node(*fault, node);
   const bool named = source.name == fault->key;
   source.fail(fault->value, named ? fault->rule : "(" + fault->key + ") " + fault->rule);
 }
@@ -138,7 +138,7 @@ GpParameters read_gp(const YamlNode& node) {
   }
   if (const YamlNode* functions = node.find("functions")) {
     parameters.functions.clear();
-    for (const YamlNode& symbol : functions->list()) parameters.functions.push_back(function_of(symbol));
+    for (const YamlNode& symbol : functions->list()) parameters.functions.push_back(read_primitive(symbol));
   }
   if (const YamlNode* range = node.find("constants_range")) {
     std::tie(parameters.constants_lower, parameters.constants_upper) = range->range();

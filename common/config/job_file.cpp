@@ -20,7 +20,7 @@ namespace {
 constexpr std::int64_t kMostDemes = 1000;
 constexpr std::int64_t kMostEffects = 1000;
 constexpr std::int64_t kMostVariations = 10'000'000;
-constexpr std::int64_t kMostRounds = 1000;
+constexpr std::int64_t kMostDistalRounds = 1000;
 constexpr std::int64_t kHighestRatio = 10000;
 
 IslandOptions read_islands(const YamlNode& node, int population_size) {
@@ -54,7 +54,7 @@ DistalOptions read_distal(const YamlNode& node) {
         form->one_of<DistalForm>({{"parallel", DistalForm::parallel}, {"sequential", DistalForm::sequential}});
   }
   if (const YamlNode* rounds = node.find("rounds")) {
-    distal.rounds = static_cast<int>(rounds->whole_number(1, kMostRounds));
+    distal.rounds = static_cast<int>(rounds->whole_number(1, kMostDistalRounds));
   }
   if (const YamlNode* amplitudes = node.find("amplitudes")) {
     distal.amplitudes =

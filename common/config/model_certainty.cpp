@@ -52,10 +52,6 @@ Interval read_range(const YamlNode& node, const Joint& joint) {
   return {ends[0], ends[1]};
 }
 
-std::size_t read_joint(const YamlNode& node, const Chain& chain) {
-  return static_cast<std::size_t>(node.at("joint").whole_number(1, chain.size()) - 1);
-}
-
 std::string term_text(const CorrectionTerm& term, const Chain& chain) {
   std::string text = "{joint: " + std::to_string(term.joint + 1) +
                      ", expression: " + yaml_text(to_string(term.shape.formula())) + ", " +
@@ -66,7 +62,7 @@ std::string term_text(const CorrectionTerm& term, const Chain& chain) {
 
 CorrectionTerm read_term(const YamlNode& node, const Chain& chain) {
   node.with_keys({"joint", "expression", "range_rad", "range_m", "branch_centre_rad"});
-  const std::size_t joint = read_joint(node, chain);
+  const auto joint = static_cast<std::size_t>(joint_at(node, "joint", chain));
   AngleBranch branch;
   if (const YamlNode* centre = node.find("branch_centre_rad")) branch = {true, centre->number()};
   const YamlNode& expression = node.at("expression");
@@ -138,7 +134,7 @@ void read_posterior(const YamlNode& file, CalibratedModel& model) {
     const Chain& chain = model.nominal.chain;
     for (const YamlNode& entry : ranges->list(chain.joints.size())) {
       entry.with_keys({"joint", "range_rad", "range_m"});
-      const std::size_t joint = read_joint(entry, chain);
+      const auto joint = static_cast<std::size_t>(joint_at(entry, "joint", chain));
       if (joint != model.measured.size()) entry.fail("", "must name the joints in order");
       model.measured.push_back(read_range(entry, chain.joints[joint]));
     }

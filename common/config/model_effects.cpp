@@ -78,7 +78,7 @@ std::string read_form(const YamlNode& node, const EffectLaw& law) {
   return node.text();
 }
 
-Tree read_formula(const YamlNode& node, const Chain& chain) {
+Tree read_symbolic_formula(const YamlNode& node, const Chain& chain) {
   try {
     return parse(node.text(), symbolic_variables(chain));
   } catch (const InputError& fault) {
@@ -131,7 +131,7 @@ std::vector<std::string> keys_of(const EffectLaw& law, const std::vector<Coeffic
   return keys;
 }
 
-std::vector<double> read_errors(const YamlNode& node, const std::vector<CoefficientLabel>& labels) {
+std::vector<double> read_standard_errors(const YamlNode& node, const std::vector<CoefficientLabel>& labels) {
   std::vector<std::string> names;
   for (const CoefficientLabel& label : labels) names.push_back(label.name);
   node.with_keys(names);
@@ -145,12 +145,13 @@ Effect read_effect(const YamlNode& node, const Robot& robot) {
   Effect effect{.kind = std::string(law.kind())};
   if (law.subject() == Subject::joint) effect.joint = joint_at(node, "joint", robot.chain);
   if (const YamlNode* form = node.find("form")) effect.form = read_form(*form, law);
-  if (law.takes_formula()) effect.formula = read_formula(node.at("formula"), robot.chain);
+  if (law.takes_formula()) effect.formula = read_symbolic_formula(node.at("formula"), robot.chain);
   read_settings(node, law, robot, effect);
   const std::vector<CoefficientLabel> labels = law.coefficients(effect, robot);
   node.with_keys(keys_of(law, labels));
   for (const CoefficientLabel& label : labels) effect.values.push_back(node.at(label.name).number());
-  if (const YamlNode* errors = node.find("standard_errors")) effect.standard_errors = read_errors(*errors, labels);
+  if (const YamlNode* errors = node.find("standard_errors"))
+    effect.standard_errors = read_standard_errors(*errors, labels);
   if (const YamlNode* ranges = node.find("ranges")) effect.ranges = read_ranges(*ranges, robot.chain);
   return effect;
 }

@@ -38,11 +38,11 @@ JointVector sampled_joints(const CalibratedModel& model, RandomStream& random) {
   return q;
 }
 
-std::string mm_text(double length_m) {
+std::string rounded_mm_text(double length_m) {
   return number_text(std::round(1e6 * length_m) / 1e3) + " mm";
 }
 
-bool same_place(const Origin& one, const Origin& other) {
+bool same_origin(const Origin& one, const Origin& other) {
   constexpr double kRounding = 1e-9;
   return (pose_of(one).matrix() - pose_of(other).matrix()).cwiseAbs().maxCoeff() < kRounding;
 }
@@ -53,7 +53,7 @@ void check_source(const UrdfArm& arm, const DrawnArm& drawing, const std::string
   for (std::size_t i = 0; count && i < drawing.joints.size(); ++i) {
     const DrawnJoint &one = arm.drawing.joints[i], &other = drawing.joints[i];
     const bool same_axis = (one.axis.normalized() - other.axis.normalized()).norm() < 1e-9;
-    if (same_axis && same_place(one.origin, other.origin)) continue;
+    if (same_axis && same_origin(one.origin, other.origin)) continue;
     throw InputError({file, arm.joints[i]->line}, one.name,
                      "is not the joint " + std::to_string(i + 1) +
                          " that the robot was imported with: its origin or axis differs; export into that file, or "
@@ -65,7 +65,7 @@ void check_source(const UrdfArm& arm, const DrawnArm& drawing, const std::string
   }
 }
 
-std::string source_of(const CalibratedModel& model, const std::string& file) {
+std::string urdf_path(const CalibratedModel& model, const std::string& file) {
   if (!file.empty()) return file;
   std::error_code ignored;
   if (std::filesystem::exists(model.nominal.urdf->file, ignored)) return model.nominal.urdf->file;
@@ -90,7 +90,7 @@ ExportedArm rewritten(const CalibratedModel& model, const CorrectedRobot& robot,
     most_rad = std::max(most_rad, vector_of(change.linear()).norm());
   }
   return {with_origins(text, changes),
-          {"origins of " + std::to_string(origins.size()) + " joints moved by " + mm_text(most_m) + " and " +
+          {"origins of " + std::to_string(origins.size()) + " joints moved by " + rounded_mm_text(most_m) + " and " +
            number_text(std::round(degrees(most_rad) * 1e4) / 1e4) + " deg at most"}};
 }
 
@@ -119,12 +119,12 @@ std::vector<std::string> lacks_of_links(const CalibratedModel& model) {
     }
     notes.push_back("joint corrections and effects are left out, for links cannot hold them: at " +
                     std::to_string(kSampledPoses) + " random poses of the measured ranges they move the tool by " +
-                    mm_text(sum_m / kSampledPoses) + " on average and " + mm_text(most_m) +
+                    rounded_mm_text(sum_m / kSampledPoses) + " on average and " + rounded_mm_text(most_m) +
                     " at most; `apply` and `export --format c` hold them");
   }
   if ((tool_m - model.nominal.chain.tool_m).norm() > 1e-6)
-    notes.push_back("the tool point is left out: identified at " + mm_text(tool_m.x()) + ", " + mm_text(tool_m.y()) +
-                    ", " + mm_text(tool_m.z()) + " in the flange's frame");
+    notes.push_back("the tool point is left out: identified at " + rounded_mm_text(tool_m.x()) + ", " +
+                    rounded_mm_text(tool_m.y()) + ", " + rounded_mm_text(tool_m.z()) + " in the flange's frame");
   return notes;
 }
 
@@ -132,7 +132,7 @@ ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& fil
   const CorrectedRobot robot = in_own_base(model);
   ExportedArm exported;
   if (model.nominal.urdf && model.nominal.drawing && model.nominal.drawing->by_axes) {
-    exported = rewritten(model, robot, source_of(model, file));
+    exported = rewritten(model, robot, urdf_path(model, file));
   } else {
     if (!file.empty()) {
       throw InputError({file, 0}, model.nominal.name,
@@ -240,7 +240,7 @@ Origin usual_angles(std::size_t link) {
   return {};
 }
 
-std::string rounded(double value) {
+std::string rounded_number_text(double value) {
   const double near = std::round(value * 1e12) / 1e12;
   return number_text(near == 0.0 ? 0.0 : near);
 }
@@ -257,9 +257,11 @@ ExportedArm ur_calibration(const CalibratedModel& model) {
   for (std::size_t i = 0; i < kLinks.size(); ++i) {
     const Eigen::Isometry3d link = frames[i] * driver.on_axes[i];
     const Origin origin = origin_of(before.inverse() * link, usual_angles(i));
-    text << "  " << kLinks[i] << ":\n    x: " << rounded(origin.xyz_m.x()) << "\n    y: " << rounded(origin.xyz_m.y())
-         << "\n    z: " << rounded(origin.xyz_m.z()) << "\n    roll: " << rounded(origin.rpy_rad.x())
-         << "\n    pitch: " << rounded(origin.rpy_rad.y()) << "\n    yaw: " << rounded(origin.rpy_rad.z()) << '\n';
+    text << "  " << kLinks[i] << ":\n    x: " << rounded_number_text(origin.xyz_m.x())
+         << "\n    y: " << rounded_number_text(origin.xyz_m.y()) << "\n    z: " << rounded_number_text(origin.xyz_m.z())
+         << "\n    roll: " << rounded_number_text(origin.rpy_rad.x())
+         << "\n    pitch: " << rounded_number_text(origin.rpy_rad.y())
+         << "\n    yaw: " << rounded_number_text(origin.rpy_rad.z()) << '\n';
     before = link;
   }
   const std::string hash = sha256(text.str());

@@ -101,7 +101,7 @@ Eigen::Isometry3d read_rigid(const YamlNode& node) {
   return pose;
 }
 
-void read_link(const YamlNode& node, Joint& joint) {
+void read_link_numbers(const YamlNode& node, Joint& joint) {
   node.with_keys({"theta_offset_deg", "d_mm", "a_mm", "alpha_deg", "beta_deg"});
   joint.theta_rad = radians(node.at("theta_offset_deg").number());
   joint.d_m = metres(node.at("d_mm").number());
@@ -267,7 +267,7 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
   model.declared = read_declared(file.at("declared"));
   model.robot.chain = model.nominal.chain;
   const std::vector<YamlNode>& links = file.at("links").list(model.nominal.chain.joints.size());
-  for (std::size_t i = 0; i < links.size(); ++i) read_link(links[i], model.robot.chain.joints[i]);
+  for (std::size_t i = 0; i < links.size(); ++i) read_link_numbers(links[i], model.robot.chain.joints[i]);
   model.robot.sensor_from_base = read_rigid(file.at("base"));
   for (const YamlNode& tool : file.at("tools").list()) {
     tool.with_keys({"target", "pose"});

@@ -23,12 +23,12 @@
 namespace demecal::inline config {
 namespace {
 
-constexpr std::int64_t kMostPoses = 1000000;
+constexpr std::int64_t kMostSimulatedPoses = 1000000;
 constexpr std::int64_t kMostRepeats = 1000;
 
 int count_at(const YamlNode& node, std::string_view key) {
   const YamlNode* found = node.find(key);
-  return found ? static_cast<int>(found->whole_number(0, kMostPoses)) : 0;
+  return found ? static_cast<int>(found->whole_number(0, kMostSimulatedPoses)) : 0;
 }
 
 void read_poses(const YamlNode& node, Scenario& scenario) {
@@ -119,7 +119,7 @@ Eigen::Isometry3d read_transform(const YamlNode& node) {
   return transform;
 }
 
-void read_temperature(const YamlNode& node, Scenario& scenario) {
+void read_temperature_course(const YamlNode& node, Scenario& scenario) {
   node.with_keys({"lower_celsius", "upper_celsius", "period_s", "reference_celsius"});
   scenario.temperature = TemperatureCourse{.lower_celsius = node.at("lower_celsius").number(),
                                            .upper_celsius = node.at("upper_celsius").number(),
@@ -147,7 +147,7 @@ void read_measurement(const YamlNode& node, Scenario& scenario) {
     for (const YamlNode& payload : payloads->list()) scenario.payloads_kg.push_back(payload.non_negative());
   }
   if (const YamlNode* interval = node.find("interval_s")) scenario.seconds_per_pose = interval->non_negative();
-  if (const YamlNode* temperature = node.find("temperature")) read_temperature(*temperature, scenario);
+  if (const YamlNode* temperature = node.find("temperature")) read_temperature_course(*temperature, scenario);
 }
 
 void read_touched(const YamlNode& node, Scenario& scenario) {

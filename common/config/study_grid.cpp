@@ -58,7 +58,7 @@ void move_to(YamlNode& node, const std::string& key) {
 }
 
 /// The child of that name, made where the map has none.
-YamlNode& child_of(YamlNode& map, const std::string& name, YamlNode::Kind kind) {
+YamlNode& child_or_new(YamlNode& map, const std::string& name, YamlNode::Kind kind) {
   if (const YamlNode* found = map.find(name))
     return map.children[static_cast<std::size_t>(found - map.children.data())];
   YamlNode child;
@@ -70,12 +70,12 @@ YamlNode& child_of(YamlNode& map, const std::string& name, YamlNode::Kind kind) 
   return map.children.emplace_back(std::move(child));
 }
 
-void put(YamlNode& root, const std::string& key, YamlNode value) {
+void set_key(YamlNode& root, const std::string& key, YamlNode value) {
   const std::size_t dot = key.find('.');
-  YamlNode& map = dot == std::string::npos ? root : child_of(root, key.substr(0, dot), YamlNode::Kind::map);
+  YamlNode& map = dot == std::string::npos ? root : child_or_new(root, key.substr(0, dot), YamlNode::Kind::map);
   move_to(value, key);
   value.name = dot == std::string::npos ? key : key.substr(dot + 1);
-  child_of(map, value.name, YamlNode::Kind::nothing) = value;
+  child_or_new(map, value.name, YamlNode::Kind::nothing) = value;
 }
 
 std::string cell_text(const std::vector<GridAxis>& axes, const std::vector<std::string>& values) {
@@ -116,7 +116,7 @@ GridCell make_cell(YamlNode root, const std::vector<GridAxis>& axes, const std::
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const YamlNode& value = axes[i].values[chosen[i]];
     cell.values.push_back(value_text(value));
-    put(root, axes[i].key, value);
+    set_key(root, axes[i].key, value);
   }
   try {
     cell.job = read_job(root);

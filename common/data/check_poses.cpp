@@ -38,7 +38,7 @@ std::string in_border_unit(double value, bool angle) {
   return angle ? number_text(value, degrees, radians) + " deg" : number_text(value, millimetres, metres) + " mm";
 }
 
-void check_limits(const MeasuredPose& pose, const Joint& joint, std::size_t index, const std::string& file) {
+void check_within_limits(const MeasuredPose& pose, const Joint& joint, std::size_t index, const std::string& file) {
   if (joint.endless) return;
   const bool angle = is_revolute(joint);
   const double margin = angle ? kLimitMargin_rad : kLimitMargin_m;
@@ -98,7 +98,7 @@ void require_something_measured(std::span<const MeasuredPose> poses, const Colum
 
 void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain, const std::string& file) {
   for (const MeasuredPose& pose : poses) {
-    for (std::size_t i = 0; i < chain.joints.size(); ++i) check_limits(pose, chain.joints[i], i, file);
+    for (std::size_t i = 0; i < chain.joints.size(); ++i) check_within_limits(pose, chain.joints[i], i, file);
   }
 }
 

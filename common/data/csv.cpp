@@ -12,11 +12,11 @@
 namespace demecal::inline data {
 namespace {
 
-constexpr std::string_view kSpaces = " \t";
+constexpr std::string_view kFieldPadding = " \t";
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 void skip_spaces(std::string_view& rest) {
-  rest.remove_prefix(std::min(rest.find_first_not_of(kSpaces), rest.size()));
+  rest.remove_prefix(std::min(rest.find_first_not_of(kFieldPadding), rest.size()));
 }
 
 /// Takes the quoted field that `rest` begins with off it, up to the next comma or the end.
@@ -41,7 +41,7 @@ std::string take_quoted(std::string_view& rest, const InputError::Where& where) 
 std::string take_plain(std::string_view& rest) {
   std::string_view field = rest.substr(0, rest.find(','));
   rest.remove_prefix(field.size());
-  field = field.substr(0, field.find_last_not_of(kSpaces) + 1);
+  field = field.substr(0, field.find_last_not_of(kFieldPadding) + 1);
   return std::string(field);
 }
 
@@ -84,8 +84,8 @@ void check_width(const CsvRow& row, std::size_t columns, const InputError::Where
 
 void write_field(std::ostream& text, const std::string& field) {
   DEMECAL_CHECK(field.find_first_of("\r\n") == std::string::npos, "field=" << field);
-  const bool padded = !field.empty() && (kSpaces.find(field.front()) != std::string_view::npos ||
-                                         kSpaces.find(field.back()) != std::string_view::npos);
+  const bool padded = !field.empty() && (kFieldPadding.find(field.front()) != std::string_view::npos ||
+                                         kFieldPadding.find(field.back()) != std::string_view::npos);
   // An empty or # beginning would make the line look blank or a comment.
   const bool quoted = padded || field.empty() || field.front() == '#' ||
                       field.find_first_of(",\"") != std::string::npos || field.starts_with(kByteOrderMark);

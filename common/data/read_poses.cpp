@@ -206,7 +206,7 @@ Eigen::Vector3d read_position(const TableColumns& columns, const PoseRows& rows)
   return position_m;
 }
 
-PoseSet read_set(const TableColumn& column, const PoseRows& rows) {
+PoseSet read_pose_set(const TableColumn& column, const PoseRows& rows) {
   if (rows.text(column) == "calibration") return PoseSet::calibration;
   if (rows.text(column) == "validation") return PoseSet::validation;
   if (rows.text(column) == "accept") return PoseSet::accept;
@@ -245,7 +245,7 @@ MeasuredPose read_pose(const FoundColumns& columns, const PoseRows& rows) {
   if (columns.payload) pose.payload_kg = read_payload(*columns.payload, rows);
   if (columns.temperature) pose.temperature_celsius = read_temperature(*columns.temperature, rows);
   if (columns.time) pose.time_s = rows.number(*columns.time);
-  if (columns.set) pose.set = read_set(*columns.set, rows);
+  if (columns.set) pose.set = read_pose_set(*columns.set, rows);
   pose.pose_id = columns.pose ? read_pose_id(*columns.pose, rows) : "line " + std::to_string(rows.line());
   if (columns.target) pose.target = rows.text(*columns.target);
   return pose;

@@ -37,6 +37,19 @@ std::string number_text(double inside, UnitConversion to_border, UnitConversion 
   return number_text(border);
 }
 
+std::string joined_words(std::span<const std::string> words, std::string_view between) {
+  std::string text;
+  for (const std::string& word : words) {
+    if (!text.empty()) text += between;
+    text += word;
+  }
+  return text;
+}
+
+std::string counted(std::size_t count, std::string_view noun) {
+  return std::to_string(count) + ' ' + std::string(noun) + (count == 1 ? "" : "s");
+}
+
 std::size_t edit_distance(std::string_view from, std::string_view to) {
   // Row i holds the distances of the first i letters of `from` to every beginning of `to`.
   std::vector<std::size_t> before_last(to.size() + 1), last(to.size() + 1), row(to.size() + 1);

@@ -32,6 +32,12 @@ inline std::string lower_case(std::string_view text) {
   return lower;
 }
 
+/// The words one after another, `between` between each two.
+std::string joined_words(std::span<const std::string> words, std::string_view between);
+
+/// "1 pose", "2 poses".
+std::string counted(std::size_t count, std::string_view noun);
+
 /// The fewest letters to insert, delete, replace or swap with a neighbour that turn one word into the other.
 std::size_t edit_distance(std::string_view from, std::string_view to);
 

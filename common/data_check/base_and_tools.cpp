@@ -26,7 +26,7 @@
 namespace demecal::inline data_check {
 namespace {
 
-std::string axis_name(int axis) {
+std::string axis_letter(int axis) {
   return std::string(1, "xyz"[axis]);
 }
 
@@ -45,8 +45,8 @@ Explanation named_axes(const Eigen::Matrix3d& permutation) {
     int from = 0;
     permutation.col(axis).cwiseAbs().maxCoeff(&from);
     exchanged = exchanged || from != axis;
-    reading += fmt::format("{}{} is {}{}", axis == 0 ? "" : ", ", axis_name(axis),
-                           permutation(from, axis) < 0 ? "-" : "", axis_name(from));
+    reading += fmt::format("{}{} is {}{}", axis == 0 ? "" : ", ", axis_letter(axis),
+                           permutation(from, axis) < 0 ? "-" : "", axis_letter(from));
   }
   const std::string clause = "the columns of the position are read so: " + reading;
   return {exchanged ? FindingKind::axes_exchanged : FindingKind::mirrored, -1, clause, nullptr};
@@ -131,7 +131,7 @@ Explanation axes_explanation(const Eigen::Isometry3d& sensor_from_base, bool is_
       if (upright_if_exchanged(base, one, other) < kUpright) continue;
       return {FindingKind::axes_exchanged, -1,
               fmt::format("the columns {} and {} of the position are exchanged: the base then stands upright",
-                          axis_name(one), axis_name(other)),
+                          axis_letter(one), axis_letter(other)),
               nullptr};
     }
   }

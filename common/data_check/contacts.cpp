@@ -37,7 +37,7 @@ std::optional<Fit> fitted_arm(const DataSet& data) {
   return fit;
 }
 
-double median_error_m(const DataSet& data, const CorrectedRobot& robot) {
+double median_tool_error_m(const DataSet& data, const CorrectedRobot& robot) {
   return median(tool_errors_m(robot, data, poses_of(data, PoseSet::calibration)));
 }
 
@@ -55,7 +55,7 @@ Finding contradiction(const DataSet& data, double as_given_m) {
   for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
     const DataSet changed = with_sign_changed(data, joint);
     const std::optional<Fit> fit = fitted_arm(changed);
-    const double left_m = fit ? median_error_m(changed, fit->robot) : best_m;
+    const double left_m = fit ? median_tool_error_m(changed, fit->robot) : best_m;
     if (left_m < best_m) {
       best_m = left_m;
       best = joint;
@@ -207,7 +207,7 @@ std::vector<Finding> check_contacts(const DataSet& data) {
   if (!has_contacts(data)) return {};
   const std::optional<Fit> fit = fitted_arm(data);
   if (!fit) return {};
-  const double left_m = median_error_m(data, fit->robot);
+  const double left_m = median_tool_error_m(data, fit->robot);
   if (left_m > kImplausible_m) return {contradiction(data, left_m)};
   return find_wrong_contacts(data, fit->robot);
 }

@@ -22,10 +22,10 @@ namespace demecal::inline data_check {
 namespace {
 
 constexpr double kHardlyMoving_rad = radians(2.0), kHardlyMoving_m = 5e-3;
-constexpr double kFlat = 0.005;      ///< ratio of a cloud's extents that makes it a plane: an arm's errors over 0.3 m
-constexpr double kThin = 0.05;       ///< ratio of both to the third that makes it a line
-constexpr int kFineDecimals_mm = 3;  ///< digits behind the point, mm, that repeats with noise do not share
-constexpr double kSamePlace = 2e-4;  ///< rad or m: to what joints that are driven to again are read
+constexpr double kFlat = 0.005;        ///< ratio of a cloud's extents that makes it a plane: an arm's errors over 0.3 m
+constexpr double kThin = 0.05;         ///< ratio of both to the third that makes it a line
+constexpr int kFineDecimals_mm = 3;    ///< digits behind the point, mm, that repeats with noise do not share
+constexpr double kSameReading = 2e-4;  ///< rad or m: to what joints that are driven to again are read
 constexpr std::size_t kFewestPoses = 4;  ///< below which nothing is said of spread
 
 Finding constant_joint(const DataSet& data, int joint, double range) {
@@ -75,7 +75,7 @@ int decimals_of_mm(double metres_value) {
 }
 
 /// The digits behind the point that the positions are given with, in mm.
-int decimals_of(const DataSet& data) {
+int position_decimals(const DataSet& data) {
   int most = 0;
   for (std::size_t i = 0; i < std::min<std::size_t>(data.poses.size(), 50); ++i)
     if (data.poses[i].position_m)
@@ -136,9 +136,9 @@ std::vector<Finding> find_shared_poses(const DataSet& data) {
   const auto first_joint = [&](std::size_t pose) { return data.poses[pose].joints[0]; };
   std::ranges::sort(fitted, {}, first_joint);
   const auto twin_of = [&](const MeasuredPose& pose) -> const MeasuredPose* {
-    auto at = std::ranges::lower_bound(fitted, pose.joints[0] - kSamePlace, {}, first_joint);
-    for (; at != fitted.end() && first_joint(*at) <= pose.joints[0] + kSamePlace; ++at)
-      if ((data.poses[*at].joints - pose.joints).cwiseAbs().maxCoeff() <= kSamePlace) return &data.poses[*at];
+    auto at = std::ranges::lower_bound(fitted, pose.joints[0] - kSameReading, {}, first_joint);
+    for (; at != fitted.end() && first_joint(*at) <= pose.joints[0] + kSameReading; ++at)
+      if ((data.poses[*at].joints - pose.joints).cwiseAbs().maxCoeff() <= kSameReading) return &data.poses[*at];
     return nullptr;
   };
   std::vector<Finding> found;
@@ -163,7 +163,7 @@ std::vector<Finding> find_shared_poses(const DataSet& data) {
 }
 
 std::vector<Finding> take_out_copies(DataSet& data) {
-  if (decimals_of(data) < kFineDecimals_mm) return {};
+  if (position_decimals(data) < kFineDecimals_mm) return {};
   std::vector<Finding> found;
   std::vector<MeasuredPose> kept;
   std::map<std::vector<double>, std::size_t> first;

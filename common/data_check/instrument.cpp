@@ -133,7 +133,7 @@ double root_mean_square_shift(const TrialFit& fit, std::span<const TrialRow> row
 }
 
 /// What a fit leaves and its numbers cost, in nats (half a logarithm of the coordinates each).
-double description(const TrialFit& fit, int numbers, const ZeroJump& jump) {
+double cost_nats(const TrialFit& fit, int numbers, const ZeroJump& jump) {
   double sum = 0.5 * numbers * std::log(3.0 * static_cast<double>(fit.error_m.size()));
   for (const double error_m : fit.error_m) {
     const double off = std::min(error_m / jump.fit.deviation_m, kCap);
@@ -181,7 +181,7 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
                        move.shift_m > std::max(kLeastShift * deviation_m, kSmallestShift_m) &&
                        move.if_changed_m < kLeastFall * move.as_given_m;
     auto jump = find_zero_jump(trial, fit);
-    if (jump && (!found || description(jump->fit, 1, *jump) < description(both, 6, *jump))) {
+    if (jump && (!found || cost_nats(jump->fit, 1, *jump) < cost_nats(both, 6, *jump))) {
       moves.push_back(jump->move);
       trial = std::move(jump->trial);
       fit = std::move(jump->fit);

@@ -62,8 +62,8 @@ struct TurnedPose {
 
 /// The angles by which orientations differ from one turn of each tool on its flange, that of the row that most agree
 /// with.
-std::vector<TurnedPose> angles_of(const DataSet& data, const Trial& trial, const TrialFit& fit,
-                                  const OrientationReading& reading) {
+std::vector<TurnedPose> turned_poses(const DataSet& data, const Trial& trial, const TrialFit& fit,
+                                     const OrientationReading& reading) {
   constexpr std::size_t kMostTried = 30;
   std::map<int, std::vector<Eigen::Quaterniond>> turns;
   std::map<int, std::vector<std::size_t>> poses;
@@ -102,7 +102,7 @@ double median_angle(const std::vector<TurnedPose>& angles) {
 
 /// The median over the rows, rad.
 double scatter_rad(const DataSet& data, const Trial& trial, const TrialFit& fit, const OrientationReading& reading) {
-  return median_angle(angles_of(data, trial, fit, reading));
+  return median_angle(turned_poses(data, trial, fit, reading));
 }
 
 /// Rows of which the orientation is off while those of the most agree.
@@ -141,7 +141,7 @@ std::vector<Finding> find_wrong_orientations(const DataSet& data, const Trial& t
   if (static_cast<std::size_t>(with) < kFewest) return {};
   const OrientationReading given{FindingKind::other_robot, -1, "", as_given,
                                  [](const Eigen::Quaterniond& q) { return q; }};
-  const std::vector<TurnedPose> angles = angles_of(data, trial, fit, given);
+  const std::vector<TurnedPose> angles = turned_poses(data, trial, fit, given);
   const double given_rad = median_angle(angles);
   if (given_rad < implausible) return find_single_orientations(data, angles);
   const std::string observed = fmt::format(

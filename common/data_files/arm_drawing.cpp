@@ -155,11 +155,11 @@ std::vector<CommandCoupling> read_couplings(const YamlNode& list, const DrawnArm
   return couplings;
 }
 
-bool is_plain(const DrawnJoint& joint) {
+bool is_bare(const DrawnJoint& joint) {
   return joint.name.empty() && !joint.row.endless && joint.direction == 1 && joint.offset == 0.0;
 }
 
-std::string limits_text(const Joint& row) {
+std::string limits_entry(const Joint& row) {
   if (row.endless) return {};
   const bool revolute = is_revolute(row);
   const auto limit = revolute ? degrees_text : millimetres_text;
@@ -198,7 +198,7 @@ DrawnArm read_drawing(const YamlNode& node) {
 
 bool is_more_than_rows(const DrawnArm& arm) {
   return arm.by_axes || !arm.couplings.empty() || arm.base != Origin{} || arm.flange != Origin{} ||
-         !std::ranges::all_of(arm.joints, is_plain);
+         !std::ranges::all_of(arm.joints, is_bare);
 }
 
 std::string joint_text(const DrawnArm& arm, const DrawnJoint& joint) {
@@ -222,7 +222,7 @@ std::string joint_text(const DrawnArm& arm, const DrawnJoint& joint) {
     text << (revolute ? ", offset_deg: " + degrees_text(joint.offset)
                       : ", offset_mm: " + millimetres_text(joint.offset));
   }
-  text << limits_text(joint.row) << "}";
+  text << limits_entry(joint.row) << "}";
   return text.str();
 }
 

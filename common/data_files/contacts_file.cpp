@@ -22,7 +22,7 @@
 namespace demecal::inline data_files {
 namespace {
 
-constexpr const char* kKinds = "kinds";
+constexpr const char* kContactKinds = "kinds";
 constexpr const char* kRadii = "radii_mm";
 constexpr const char* kFlatness = "flatness_mm";
 constexpr const char* kDistances = "distances";
@@ -50,8 +50,8 @@ class ContactsReader {
   explicit ContactsReader(DataSet& data) : data_(data), names_(contact_names(data)) {}
 
   void read(const YamlNode& node) {
-    node.with_keys({kKinds, kRadii, kFlatness, kDistances, kParallel, kSquare});
-    for (const YamlNode& kind : named_values(node.find(kKinds))) {
+    node.with_keys({kContactKinds, kRadii, kFlatness, kDistances, kParallel, kSquare});
+    for (const YamlNode& kind : named_values(node.find(kContactKinds))) {
       require_contact(kind, kind.name);
       if (data_.contacts.forms.contains(kind.name))
         kind.fail(kind.name, "is where a wire ends: it is no other kind of contact");
@@ -180,7 +180,7 @@ std::string contacts_text(const Contacts& contacts) {
       flatness += "    " + yaml_text(name) + ": " + number_text(form.flatness_m, millimetres, metres) + "\n";
   }
   std::string text;
-  if (!kinds.empty()) text += std::string("  ") + kKinds + ":\n" + kinds;
+  if (!kinds.empty()) text += std::string("  ") + kContactKinds + ":\n" + kinds;
   if (!radii.empty()) text += std::string("  ") + kRadii + ":\n" + radii;
   if (!flatness.empty()) text += std::string("  ") + kFlatness + ":\n" + flatness;
   if (!contacts.distances.empty()) text += std::string("  ") + kDistances + ":\n";

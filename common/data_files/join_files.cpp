@@ -69,7 +69,7 @@ const ColumnName& key_column(const PoseFile& file, const std::optional<ColumnNam
                        key + "`, of this file where names differ");
 }
 
-std::vector<JoinKeys> names_of(const std::vector<PoseFile>& files, const YamlNode& by) {
+std::vector<JoinKeys> pose_names(const std::vector<PoseFile>& files, const YamlNode& by) {
   std::vector<JoinKeys> keys;
   for (const PoseFile& file : files) {
     const TableColumn column(file.table, key_column(file, file.pose, "pose", by));
@@ -141,8 +141,8 @@ std::vector<Vector> vectors_of(const PoseFile& file, const std::vector<TableColu
   return all;
 }
 
-std::vector<JointVector> joints_of(const PoseFile& file, const ColumnMap& columns, const AssumedUnits& units,
-                                   const Chain& chain) {
+std::vector<JointVector> joint_vectors(const PoseFile& file, const ColumnMap& columns, const AssumedUnits& units,
+                                       const Chain& chain) {
   return vectors_of<JointVector>(file, quantities(file, columns.joints, &chain, units));
 }
 
@@ -172,7 +172,7 @@ class TimeJoin {
     JoinPoints points;
     points.measured_m =
         vectors_of<Eigen::Vector3d>(files_[lead], quantities(files_[lead], columns_.position, nullptr, units_));
-    for (const JointVector& joints : joints_of(files_[arm], columns_, units_, chain_))
+    for (const JointVector& joints : joint_vectors(files_[arm], columns_, units_, chain_))
       points.predicted_m.push_back(tool_position(chain_, joints));
     return find_offset_s(files_[lead].table, keys[lead], files_[arm].table, keys[arm], points, within_s);
   }
@@ -193,7 +193,7 @@ class TimeJoin {
   /// A measurement taken while the arm moves is off by its speed times what the clocks differ by.
   void warn_of_motion(const JoinedRows& joined, const JoinKeys& keys, std::size_t arm, double within_s,
                       std::vector<std::string>& sentences) const {
-    const std::vector<JointVector> joints = joints_of(files_[arm], columns_, units_, chain_);
+    const std::vector<JointVector> joints = joint_vectors(files_[arm], columns_, units_, chain_);
     constexpr std::size_t kDense = 5;  // rows a pose: fewer may be one row of each pose, between which the arm moved
     const bool dense = joints.size() >= kDense * joined.rows.size();
     const double near_s = dense ? std::max(within_s, neighbours_s(keys)) : within_s;
@@ -249,7 +249,7 @@ JoinedTables join_files(const YamlNode& root, std::vector<PoseFile>& files, cons
   }
   switch (rule.by) {
     case JoinBy::name:
-      rows = join_by_name(tables_of(files), names_of(files, node->at("by")), lead, rule.unmatched);
+      rows = join_by_name(tables_of(files), pose_names(files, node->at("by")), lead, rule.unmatched);
       break;
     case JoinBy::order:
       rows = join_by_order(tables_of(files), lead);

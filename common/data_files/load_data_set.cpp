@@ -77,7 +77,7 @@ SplitKeys read_split(const YamlNode* node) {
 }
 
 /// Takes the poses of these ids out of those that are used.
-void exclude(const YamlNode* ids, DataSet& data) {
+void exclude_poses(const YamlNode* ids, DataSet& data) {
   if (!ids) return;
   for (const YamlNode& id : ids->list()) {
     const std::string name = id.text();
@@ -140,7 +140,7 @@ DescribedDataSet load_described_data_set(const std::filesystem::path& path) {
     RandomStream random{split.seed};
     split_by_pose(data.poses, split.fractions, [&random](std::size_t n) { return random.index(n); });
   }
-  exclude(root.find("exclude"), data);
+  exclude_poses(root.find("exclude"), data);
   require_instrument_of_angles(data, read);
   weigh_by_stated_uncertainty(data);
   if (data.anchors_unknown) take_wires_for_contacts(data);

@@ -114,8 +114,8 @@ void add_own(PoseFile& file, std::size_t table, ColumnMap& map) {
 }
 
 /// The key of the file preferred, or of the first that has it.
-std::optional<ColumnName> key_of(const std::vector<PoseFile>& files, std::size_t preferred,
-                                 std::optional<ColumnName> PoseFile::*key) {
+std::optional<ColumnName> preferred_key(const std::vector<PoseFile>& files, std::size_t preferred,
+                                        std::optional<ColumnName> PoseFile::*key) {
   std::optional<ColumnName> found;
   for (std::size_t i = files.size(); i-- > 0;) {
     if (!(files[i].*key) || (found && found->table == preferred)) continue;
@@ -142,25 +142,25 @@ ColumnMap combined_columns(std::vector<PoseFile>& files, const std::optional<Col
     if (files[i].own_columns) add_own(files[i], i, map);
   }
   const auto table_of = [](const std::vector<ColumnName>& names) { return names.empty() ? 0 : names.front().table; };
-  map.pose = key_of(files, table_of(map.joints), &PoseFile::pose);
-  map.time = key_of(files, table_of(map.position), &PoseFile::time);
+  map.pose = preferred_key(files, table_of(map.joints), &PoseFile::pose);
+  map.time = preferred_key(files, table_of(map.position), &PoseFile::time);
   return map;
 }
 
 namespace {
 
 /// An item of `poses`.
-const YamlNode& name_of(const YamlNode& item) {
+const YamlNode& file_node(const YamlNode& item) {
   if (item.kind == YamlNode::Kind::scalar) return item;
   return item.with_keys({"file", "delimiter", "decimal", "header_line", "columns"}).at("file");
 }
 
-const YamlNode* columns_of(const YamlNode& item) {
+const YamlNode* columns_node(const YamlNode& item) {
   return item.kind == YamlNode::Kind::map ? item.find("columns") : nullptr;
 }
 
 PoseFile read_pose_file(const YamlNode& item) {
-  const YamlNode& name = name_of(item);
+  const YamlNode& name = file_node(item);
   const std::string bytes = read_named(name, read_file);
   PoseFile file;
   file.node = &item;
@@ -168,7 +168,7 @@ PoseFile read_pose_file(const YamlNode& item) {
   file.table = std::move(read.table);
   file.found = std::move(read.found);
   file.sha256 = sha256(bytes);
-  if (const YamlNode* own = columns_of(item)) file.own_columns = read_column_map(*own, ColumnsOf::part);
+  if (const YamlNode* own = columns_node(item)) file.own_columns = read_column_map(*own, ColumnsOf::part);
   return file;
 }
 

@@ -53,17 +53,17 @@ bool measured(const DataSet& data, const Has& has) {
 }
 
 /// The heading of one of several like columns, such as "q1_deg", for an index from 0.
-std::string numbered(std::string_view name, std::size_t index, std::string_view ending) {
+std::string numbered_heading(std::string_view name, std::size_t index, std::string_view ending) {
   std::ostringstream heading;
   heading << name << index + 1 << ending;
   return heading.str();
 }
 
-ColumnGroup joint_columns(const Chain& chain) {
+ColumnGroup joint_group(const Chain& chain) {
   ColumnGroup group{.key = "joints", .columns = {}};
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const bool revolute = is_revolute(chain.joints[i]);
-    group.columns.push_back({numbered("q", i, revolute ? "_deg" : "_mm"), [=](const MeasuredPose& pose) {
+    group.columns.push_back({numbered_heading("q", i, revolute ? "_deg" : "_mm"), [=](const MeasuredPose& pose) {
                                const double value = pose.joints[static_cast<Eigen::Index>(i)];
                                return revolute ? degrees_text(value) : millimetres_text(value);
                              }});
@@ -111,8 +111,8 @@ ColumnGroup orientation_columns() {
 ColumnGroup distance_columns(std::size_t count) {
   ColumnGroup group{.key = "distances", .columns = {}};
   for (std::size_t i = 0; i < count; ++i) {
-    group.columns.push_back(
-        {numbered("l", i, "_mm"), [=](const MeasuredPose& pose) { return millimetres_text(pose.distances_m[i]); }});
+    group.columns.push_back({numbered_heading("l", i, "_mm"),
+                             [=](const MeasuredPose& pose) { return millimetres_text(pose.distances_m[i]); }});
   }
   return group;
 }
@@ -120,7 +120,7 @@ ColumnGroup distance_columns(std::size_t count) {
 ColumnGroup approach_columns(std::size_t joints) {
   ColumnGroup group{.key = "approach", .columns = {}};
   for (std::size_t i = 0; i < joints; ++i) {
-    group.columns.push_back({numbered("s", i, ""), [=](const MeasuredPose& pose) {
+    group.columns.push_back({numbered_heading("s", i, ""), [=](const MeasuredPose& pose) {
                                return number_text((*pose.approach)[static_cast<Eigen::Index>(i)]);
                              }});
   }
@@ -131,7 +131,7 @@ ColumnGroup torque_columns(const Chain& chain) {
   ColumnGroup group{.key = "torque", .columns = {}};
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const char* const unit = is_revolute(chain.joints[i]) ? "_nm" : "_n";
-    group.columns.push_back({numbered("torque", i, unit), [=](const MeasuredPose& pose) {
+    group.columns.push_back({numbered_heading("torque", i, unit), [=](const MeasuredPose& pose) {
                                return number_text((*pose.torque)[static_cast<Eigen::Index>(i)]);
                              }});
   }
@@ -160,7 +160,7 @@ std::vector<ColumnGroup> column_groups(const DataSet& data) {
   std::vector<ColumnGroup> groups{
       {"set", false, {{"set", [](const MeasuredPose& pose) { return std::string(to_string(pose.set)); }}}},
       single("pose", "pose_id", &MeasuredPose::pose_id),
-      joint_columns(data.robot.chain)};
+      joint_group(data.robot.chain)};
   if (has(&MeasuredPose::position_m)) groups.push_back(position_columns());
   if (states_sigma(data)) groups.push_back(sigma_columns());
   if (has(&MeasuredPose::orientation)) groups.push_back(orientation_columns());
@@ -179,7 +179,7 @@ std::vector<ColumnGroup> column_groups(const DataSet& data) {
   return groups;
 }
 
-CsvTable table_of(const DataSet& data, const std::vector<ColumnGroup>& groups) {
+CsvTable written_table(const DataSet& data, const std::vector<ColumnGroup>& groups) {
   CsvTable table;
   for (const ColumnGroup& group : groups) {
     for (const WrittenColumn& column : group.columns) table.columns.push_back(column.heading);
@@ -233,7 +233,7 @@ void write_robot(const Robot& robot, const std::filesystem::path& path, const st
 std::filesystem::path write_data_set(const DataSet& data, const std::filesystem::path& folder,
                                      const std::string& purpose) {
   const std::vector<ColumnGroup> groups = column_groups(data);
-  write_file(folder / "poses.csv", csv_text(table_of(data, groups)));
+  write_file(folder / "poses.csv", csv_text(written_table(data, groups)));
   write_robot(data.robot, folder / "robot.yaml", "the robot of " + data.name + ", nominal");
   write_file(folder / "dataset.yaml", yaml_of(data, groups, purpose));
   return folder / "dataset.yaml";

@@ -82,7 +82,7 @@ fastdds::TypeSupport message_type(const char* name) {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kHeartbeat{50};
+constexpr milliseconds kWriterHeartbeat{50};
 
 /// 0 is "no limit" to Fast DDS.
 fastdds::ResourceLimitsQosPolicy no_limits() {
@@ -155,7 +155,7 @@ fastdds::DataWriterQos writer_qos(Topic topic) {
   qos.history().depth = 1;
   // A thread of its own puts what comes at once into one datagram.
   qos.publish_mode().kind = is_large(topic) ? fastdds::ASYNCHRONOUS_PUBLISH_MODE : fastdds::SYNCHRONOUS_PUBLISH_MODE;
-  qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(kHeartbeat);
+  qos.reliable_writer_qos().times.heartbeatPeriod = dds_duration(kWriterHeartbeat);
   return qos;
 }
 

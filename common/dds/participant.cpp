@@ -24,7 +24,7 @@ namespace rtps = eprosima::fastrtps::rtps;
 /// How long a handshake may take on a busy machine.
 constexpr std::chrono::seconds kHandshake{5};
 
-std::string place_of(const rtps::ParticipantProxyData& participant) {
+std::string address_text(const rtps::ParticipantProxyData& participant) {
   if (participant.default_locators.unicast.empty()) return "";
   return " at " + rtps::IPLocator::ip_to_string(participant.default_locators.unicast[0]);
 }
@@ -104,8 +104,8 @@ void PeerLog::on_participant_discovery(fastdds::DomainParticipant*, rtps::Partic
   const bool certified = shows_certificate(found.info);
   const bool settled = !secured_ && !certified;
   const std::string name = printable(found.info.m_participantName.to_string());
-  Other& other =
-      others_.try_emplace(found.info.m_guid, Other{name, place_of(found.info), Clock::now(), settled}).first->second;
+  Other& other = others_.try_emplace(found.info.m_guid, Other{name, address_text(found.info), Clock::now(), settled})
+                     .first->second;
   if (secured_ && !certified) log(other, "is refused: it shows no certificate");
   if (!secured_ && certified)
     log(other, "does not talk to this one: it demands a certificate, which --security would show");

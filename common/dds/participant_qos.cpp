@@ -32,7 +32,7 @@ constexpr std::uint32_t kSocketBuffer_bytes = 4 << 20;
 /// How many participants of one host are found by unicast.
 constexpr std::uint32_t kParticipantsPerHost = 100;
 constexpr milliseconds kParticipantLease{5000};
-constexpr milliseconds kAnnouncement{1000};
+constexpr milliseconds kParticipantAnnouncement{1000};
 constexpr milliseconds kFirstAnnouncements{30};
 /// So many of them, closer together: whoever starts beside another may miss the first.
 constexpr std::uint32_t kFirst = 8;
@@ -75,7 +75,7 @@ std::vector<std::string> unicast_hosts(const DdsOptions& options) {
 void set_discovery(rtps::BuiltinAttributes& builtin, const DdsOptions& options) {
   auto& discovery = builtin.discovery_config;
   discovery.leaseDuration = dds_duration(kParticipantLease);
-  discovery.leaseDuration_announcementperiod = dds_duration(kAnnouncement);
+  discovery.leaseDuration_announcementperiod = dds_duration(kParticipantAnnouncement);
   discovery.initial_announcements = {kFirst, dds_duration(kFirstAnnouncements)};
   if (!options.discovery_server.empty()) {
     discovery.discoveryProtocol = rtps::DiscoveryProtocol_t::CLIENT;

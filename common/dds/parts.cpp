@@ -13,7 +13,7 @@ constexpr std::size_t kMostParts = kMostSample_bytes / kPart_bytes + 1;
 /// What an unfinished message takes beside its bytes.
 constexpr std::size_t kUnfinished_bytes = 256;
 
-std::string_view bytes_of(const MessagePart& part) {
+std::string_view part_bytes(const MessagePart& part) {
   return {reinterpret_cast<const char*>(part.bytes.data()), part.bytes.size()};
 }
 
@@ -63,7 +63,7 @@ MessageAssembler::Result MessageAssembler::take(const WriterId& writer, MessageP
   if (known != unfinished_.end() && known->second.message < part.message) forget(known);
   if (part.count == 0) return {part.bytes.empty() && part.message > 0 ? Verdict::waits : Verdict::malformed, {}};
   if (!is_sound(part)) return {Verdict::malformed, {}};
-  if (part.count == 1) return {Verdict::whole, std::string(bytes_of(part))};
+  if (part.count == 1) return {Verdict::whole, std::string(part_bytes(part))};
   return add(place, std::move(part));
 }
 
@@ -86,7 +86,7 @@ MessageAssembler::Result MessageAssembler::add(const WriterPlace& place, Message
   }
   message.bytes += part.bytes.size();
   kept += part.bytes.size();
-  message.parts[part.index] = std::string(bytes_of(part));
+  message.parts[part.index] = std::string(part_bytes(part));
   if (--message.missing > 0) return {};
   Result whole{Verdict::whole, {}};
   for (const std::optional<std::string>& one : message.parts) whole.bytes += *one;

@@ -65,7 +65,7 @@ constexpr std::size_t kEvents = 4;
 
 /// The place of a kind of message in kRos2Topics; kEvents where it has no topic of its own.
 template <class Plain>
-constexpr std::size_t place_of() {
+constexpr std::size_t topic_place() {
   if constexpr (std::is_same_v<Plain, WorkerStatus>) return 0;
   if constexpr (std::is_same_v<Plain, Control>) return 1;
   if constexpr (std::is_same_v<Plain, Progress>) return 2;
@@ -138,7 +138,7 @@ void Ros2Publisher::publish(const Message& message, const std::string& line) {
   std::visit(
       [&](const auto& plain) {
         using Plain = std::decay_t<decltype(plain)>;
-        constexpr std::size_t kPlace = place_of<Plain>();
+        constexpr std::size_t kPlace = topic_place<Plain>();
         if constexpr (kPlace != kEvents) implementation_->write(kPlace, to_sample(plain));
       },
       message);

@@ -20,9 +20,9 @@ namespace {
 
 namespace fastdds = eprosima::fastdds::dds;
 
-constexpr std::size_t kMostOver = 1024;
+constexpr std::size_t kMostEndedRuns = 1024;
 /// So long after a run's end its final messages may still be published.
-constexpr std::chrono::milliseconds kDrainTimeout{1000};
+constexpr std::chrono::milliseconds kFinalMessagesGrace{1000};
 
 DdsWriters::Channel channel_of(const TopicKey& key) {
   return {key.topic, key.topic == Topic::migrants ? key.island.joint : 0};
@@ -61,7 +61,7 @@ std::vector<std::pair<Topic, fastdds::DataWriter*>> DdsWriters::all() {
 
 bool DdsWriters::is_drained(RunId run) const {
   const auto found = std::ranges::find(over_, run, &Ended::run);
-  return found != over_.end() && std::chrono::steady_clock::now() - found->at >= kDrainTimeout;
+  return found != over_.end() && std::chrono::steady_clock::now() - found->at >= kFinalMessagesGrace;
 }
 
 void DdsWriters::send(const Message& message) {
@@ -92,7 +92,7 @@ void DdsWriters::write_parts(Writer& own, std::uint32_t place, std::string_view 
 void DdsWriters::withdraw(RunId run) {
   const std::lock_guard lock(mutex_);
   if (std::ranges::find(over_, run, &Ended::run) != over_.end()) return;
-  if (over_.size() == kMostOver) {
+  if (over_.size() == kMostEndedRuns) {
     vacate(over_.front());
     over_.pop_front();
   }
@@ -115,7 +115,7 @@ void DdsWriters::vacate_ended() {
   const std::lock_guard lock(mutex_);
   const Time now = std::chrono::steady_clock::now();
   for (Ended& ended : over_)
-    if (now - ended.at >= kDrainTimeout) vacate(ended);
+    if (now - ended.at >= kFinalMessagesGrace) vacate(ended);
 }
 
 }  // namespace demecal::inline dds

@@ -27,12 +27,6 @@ double huber_square(double error, double threshold) {
   return error <= threshold ? error * error : threshold * (2.0 * error - threshold);
 }
 
-double quantile(std::vector<double>& values, double share) {
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
-}
-
 /// X^T X and X^T (what X explains and what is left) of one pose and its repeats.
 struct PoseSums {
   Eigen::MatrixXd gram;
@@ -56,7 +50,7 @@ std::vector<PoseSums> pose_sums(const ResidualField& field, const Projection::Tr
   return all;
 }
 
-Eigen::VectorXd solve(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) {
+Eigen::VectorXd solve_normal_equations(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) {
   constexpr double kNothing = 1e-9;
   Eigen::VectorXd scale = gram.diagonal().cwiseSqrt();
   for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
@@ -233,7 +227,7 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
       gram += pose.gram;
       moment += pose.moment;
     }
-    drawn.col(static_cast<Eigen::Index>(draw)) = solve(gram, moment);
+    drawn.col(static_cast<Eigen::Index>(draw)) = solve_normal_equations(gram, moment);
   });
   Resampled result;
   const Eigen::RowVectorXd along = (whole * trial.coefficients).transpose() * drawn;

@@ -19,7 +19,7 @@
 namespace demecal::inline distal {
 namespace {
 
-constexpr double kLeastGain = 1e-4;  ///< of the linearized index, by a choice that counts
+constexpr double kLeastIndexGain = 1e-4;  ///< of the linearized index, by a choice that counts
 constexpr double kLargestFactor = 10.0;
 constexpr double kScaleDigits = 3.0;  ///< that formulas show
 
@@ -33,7 +33,7 @@ struct CandidateOffer {
 };
 
 /// A power of ten divides exactly, so that the number prints with as few digits.
-double rounded(double scale_rad) {
+double rounded_scale(double scale_rad) {
   const double power = std::pow(10.0, kScaleDigits - 1.0 - std::floor(std::log10(std::abs(scale_rad))));
   return std::round(scale_rad * power) / power;
 }
@@ -132,7 +132,7 @@ bool CandidateChoice::choose_one() {
   while (true) {
     std::optional<std::size_t> best;
     ChosenShapes fit_of_choice = fit_of_chosen_;
-    fit_of_choice.index_mm2 *= 1.0 - kLeastGain;
+    fit_of_choice.index_mm2 *= 1.0 - kLeastIndexGain;
     for (std::size_t place = 0; place < offers_.size(); ++place) {
       if (offers_[place].is_refused || std::ranges::count(chosen_, place) > 0) continue;
       std::optional<ChosenShapes> one = evaluate(with(place));
@@ -175,7 +175,7 @@ JointCorrection CandidateChoice::correction(std::size_t place, double factor) co
   const CandidateOffer& offer = offers_[place];
   if (factor == 1.0 && offer.is_present) return robot_.corrections[candidates_[offer.list].training.joint];
   JointTraining training = candidates_[offer.list].training;
-  training.scale_rad = factor == 1.0 ? offer.scale_rad : rounded(factor * offer.scale_rad);
+  training.scale_rad = factor == 1.0 ? offer.scale_rad : rounded_scale(factor * offer.scale_rad);
   return correction_from(training, offer.tree);
 }
 

@@ -36,7 +36,7 @@ std::string references(const CsvTable& table, const std::vector<std::size_t>& co
   return yaml_list(names);
 }
 
-double largest(const CsvTable& table, const std::vector<std::size_t>& columns) {
+double largest_number(const CsvTable& table, const std::vector<std::size_t>& columns) {
   double most = 0.0;
   for (const std::size_t index : columns) {
     const TableColumn column(table, {table.columns[index], {}, index + 1});
@@ -57,7 +57,7 @@ std::optional<AssumedUnit> assumed_unit(const std::vector<GivenTable>& tables, c
     if (group.empty() ||
         std::ranges::all_of(group, [&](std::size_t column) { return states_unit(table, column, quantity); }))
       continue;
-    const double most = largest(table, group);
+    const double most = largest_number(table, group);
     const std::string unit(likely_unit(quantity, most));
     return AssumedUnit{key, unit,
                        "units of " + in_words(table, group) + " are taken to be " + unit + ", since the largest is " +
@@ -81,7 +81,7 @@ bool holds_several(const CsvTable& table, std::size_t column) {
 }
 
 /// The last part of the folder's path, "." and ".." resolved.
-std::string name_of(const std::filesystem::path& folder) {
+std::string folder_name(const std::filesystem::path& folder) {
   const std::filesystem::path whole = std::filesystem::weakly_canonical(std::filesystem::absolute(folder));
   const std::filesystem::path name = whole.has_filename() ? whole.filename() : whole.parent_path().filename();
   return name.empty() ? "measurement" : name.string();
@@ -179,7 +179,7 @@ void keep_one_source(std::vector<GivenTable>& tables, std::vector<std::size_t> G
   }
 }
 
-void require(const std::vector<GivenTable>& tables, bool found, const std::string& what) {
+void require_columns(const std::vector<GivenTable>& tables, bool found, const std::string& what) {
   if (found) return;
   std::string names;
   for (const GivenTable& given : tables) names += (names.empty() ? "" : ", ") + given.path.string();
@@ -213,16 +213,19 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
   const auto any = [&](auto group) {
     return std::ranges::any_of(tables, [&](const GivenTable& given) { return !(given.columns.*group).empty(); });
   };
-  require(tables, any(&GuessedColumns::joints),
-          "no columns are called as the " + std::to_string(joints) +
-              " joints may be (q1 ..., j1 ..., joint_1 ..., A1 ...): rename them, or name them in a data set by hand "
-              "(`demecal template dataset`)");
+  require_columns(
+      tables, any(&GuessedColumns::joints),
+      "no columns are called as the " + std::to_string(joints) +
+          " joints may be (q1 ..., j1 ..., joint_1 ..., A1 ...): rename them, or name them in a data set by hand "
+          "(`demecal template dataset`)");
   const bool touched =
       std::ranges::any_of(tables, [](const GivenTable& given) { return given.columns.contact.has_value(); });
-  require(tables, any(&GuessedColumns::position) || any(&GuessedColumns::orientation) || touched,
-          "no columns are called as measured points may be (x, y, z; X [mm] ...), nor any as what the tool touches "
-          "(contact): rename them, or name them in a data set by hand (`demecal template dataset`)");
-  std::string body = "demecal_dataset: 1\nname: " + yaml_text(name_of(folder)) + "\nrobot: " + yaml_text(robot) + "\n";
+  require_columns(
+      tables, any(&GuessedColumns::position) || any(&GuessedColumns::orientation) || touched,
+      "no columns are called as measured points may be (x, y, z; X [mm] ...), nor any as what the tool touches "
+      "(contact): rename them, or name them in a data set by hand (`demecal template dataset`)");
+  std::string body =
+      "demecal_dataset: 1\nname: " + yaml_text(folder_name(folder)) + "\nrobot: " + yaml_text(robot) + "\n";
   if (tables.size() == 1 && layout_text(told, "").empty()) {
     body += "poses: " + yaml_text(relative_name(tables[0].path, folder)) +
             "\ncolumns:                 # by name, or by number from 1\n" + columns_text(tables[0], "  ");

@@ -127,7 +127,8 @@ bool names_suffice(const ColumnMap& columns, const AssumedUnits& units, const Ch
   return true;
 }
 
-std::vector<JointColumn> joint_columns(const ColumnMap& columns, const AssumedUnits& units, const Chain& chain) {
+std::vector<JointColumn> planned_joint_columns(const ColumnMap& columns, const AssumedUnits& units,
+                                               const Chain& chain) {
   std::vector<JointColumn> joints;
   if (!names_suffice(columns, units, chain)) {
     for (std::size_t i = 0; i < chain.joints.size(); ++i) {
@@ -174,7 +175,8 @@ std::string proposed_poses_csv(const std::filesystem::path& data_set_file, const
                                const std::vector<Stop>& stops) {
   const YamlNode root = read_yaml(data_set_file);
   const ColumnMap columns = root.find("columns") ? read_column_map(root.at("columns"), ColumnsOf::part) : ColumnMap{};
-  const std::vector<JointColumn> joints = joint_columns(columns, read_units(root.find("units")), data.robot.chain);
+  const std::vector<JointColumn> joints =
+      planned_joint_columns(columns, read_units(root.find("units")), data.robot.chain);
   CsvTable table{.file = {},
                  .header_line = 0,
                  .columns = {columns.pose && columns.pose->number == 0 ? columns.pose->name : "pose_id"},

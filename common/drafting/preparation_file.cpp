@@ -186,7 +186,7 @@ void read_logs(const std::vector<LogRequest>& requests, Recordings& recordings) 
   }
 }
 
-LogRequest request_of(const YamlNode& item) {
+LogRequest log_request(const YamlNode& item) {
   const bool is_map = item.kind == YamlNode::Kind::map;
   if (is_map) item.with_keys({"file", "set", "columns", "units", "delimiter", "decimal", "header_line"});
   const YamlNode& file = is_map ? item.at("file") : item;
@@ -196,10 +196,10 @@ LogRequest request_of(const YamlNode& item) {
 }
 
 std::vector<LogRequest> requests_of(const YamlNode& files) {
-  if (files.kind != YamlNode::Kind::list) return {request_of(files)};
+  if (files.kind != YamlNode::Kind::list) return {log_request(files)};
   if (files.list().empty()) files.fail("", "must name one file at least");
   std::vector<LogRequest> requests;
-  for (const YamlNode& item : files.list()) requests.push_back(request_of(item));
+  for (const YamlNode& item : files.list()) requests.push_back(log_request(item));
   return requests;
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kArcsecondsPerRadian = 3600.0 * 180.0 / std::numbers::pi;
 
-std::string digits(double value, int count) {
+std::string significant_text(double value, int count) {
   std::ostringstream text;
   text.precision(count);
   text << value;
@@ -21,13 +21,13 @@ std::string digits(double value, int count) {
 
 /// "0.0003 rad cos(24 q2)", without its sign.
 std::string size_of_term(const Term& term, double value, const std::string& unit) {
-  std::string text = digits(std::abs(value), 4);
+  std::string text = significant_text(std::abs(value), 4);
   if (unit != "1") text += ' ' + unit;
   if (!term.factor.empty()) text += ' ' + term.factor;
   return text;
 }
 
-constexpr std::array<const char*, 6> kAxes{"x", "y", "z", "rx", "ry", "rz"};
+constexpr std::array<const char*, 6> kMotionAxes{"x", "y", "z", "rx", "ry", "rz"};
 
 /// The frame in which the link's transform `parameter` acts, from where the link begins.
 Eigen::Isometry3d frame_before(const Chain& chain, const Joint& joint, double q, LinkParameter parameter) {
@@ -80,7 +80,7 @@ CoefficientLabel compliance_label(const Robot& robot, int joint, const std::stri
 }
 
 std::string rounded_text(double value) {
-  return std::abs(value) < 100.0 ? digits(value, 3) : digits(std::round(value), 9);
+  return std::abs(value) < 100.0 ? significant_text(value, 3) : significant_text(std::round(value), 9);
 }
 
 std::string angle_text(double angle_rad) {
@@ -114,7 +114,7 @@ std::string joint_symbol(int joint) {
 std::string times_per_turn(double order) {
   if (order == 1.0) return "once per turn";
   if (order == 2.0) return "twice per turn";
-  return digits(order, 8) + " times per turn";
+  return significant_text(order, 8) + " times per turn";
 }
 
 std::string write_equations(const Effect& effect, const Robot& robot, const std::vector<Equation>& equations) {
@@ -139,7 +139,7 @@ std::string write_joint_equation(const Effect& effect, const Robot& robot, const
 }
 
 std::vector<Term> harmonic_terms(double ratio, int joint) {
-  const std::string angle = (ratio == 1.0 ? "" : digits(ratio, 8) + ' ') + joint_symbol(joint);
+  const std::string angle = (ratio == 1.0 ? "" : significant_text(ratio, 8) + ' ') + joint_symbol(joint);
   return {{0, "cos(" + angle + ')'}, {1, "sin(" + angle + ')'}};
 }
 
@@ -147,7 +147,7 @@ std::vector<CoefficientLabel> rigid_labels(int count, const std::string& suffix,
   std::vector<CoefficientLabel> labels;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(count); ++axis) {
     const std::string unit = axis < 3 ? "m" : "rad";
-    labels.push_back({std::string(kAxes[axis]) + '_' + unit + suffix, unit + per});
+    labels.push_back({std::string(kMotionAxes[axis]) + '_' + unit + suffix, unit + per});
   }
   return labels;
 }
@@ -161,7 +161,7 @@ std::string write_rigid_equations(const Effect& effect, const Robot& robot, int 
                                   const std::string& factor) {
   std::vector<Equation> equations;
   for (std::size_t axis = 0; axis < static_cast<std::size_t>(count); ++axis) {
-    equations.push_back({symbol + kAxes[axis], {{axis, factor}}});
+    equations.push_back({symbol + kMotionAxes[axis], {{axis, factor}}});
   }
   return write_equations(effect, robot, equations);
 }

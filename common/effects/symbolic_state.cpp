@@ -6,7 +6,7 @@ namespace demecal::inline effects {
 namespace {
 
 /// Turns the frame about one of its own axes: the two that follow it mix.
-void turn(SymbolicFrame& frame, int axis, Expression angle) {
+void turn_frame(SymbolicFrame& frame, int axis, Expression angle) {
   const auto first = static_cast<std::size_t>((axis + 1) % 3), second = static_cast<std::size_t>((axis + 2) % 3);
   const Expression c = cosine(angle), s = sine(angle);
   const SymbolicVector old_first = frame.axes[first], old_second = frame.axes[second];
@@ -34,7 +34,7 @@ struct Beyond {
   SymbolicVector moment_kg_m;
 };
 
-Beyond beyond(const SymbolicState& state, int joint) {
+Beyond masses_beyond(const SymbolicState& state, int joint) {
   Algebra& algebra = state.algebra();
   Beyond all{0.0, constant_vector(algebra, Eigen::Vector3d::Zero())};
   for (std::size_t i = static_cast<std::size_t>(joint); i < state.robot->masses.size(); ++i) {
@@ -46,15 +46,16 @@ Beyond beyond(const SymbolicState& state, int joint) {
   return all;
 }
 
-const SymbolicFrame& place(const SymbolicState& state, int joint) {
+const SymbolicFrame& joint_frame(const SymbolicState& state, int joint) {
   return state.places[static_cast<std::size_t>(joint)];
 }
 
 /// Nm, base frame.
 SymbolicVector moment(const SymbolicState& state, int joint, const Eigen::Vector3d& gravity_mps2) {
   Algebra& algebra = state.algebra();
-  const Beyond all = beyond(state, joint);
-  const SymbolicVector arm = minus(all.moment_kg_m, scaled(algebra.constant(all.mass_kg), place(state, joint).origin));
+  const Beyond all = masses_beyond(state, joint);
+  const SymbolicVector arm =
+      minus(all.moment_kg_m, scaled(algebra.constant(all.mass_kg), joint_frame(state, joint).origin));
   return cross(arm, constant_vector(algebra, gravity_mps2));
 }
 
@@ -136,7 +137,7 @@ Expression elementary_value(const Joint& joint, LinkParameter parameter, Express
 }
 
 void advance(SymbolicFrame& frame, const Elementary& transform, Expression value) {
-  if (transform.rotates) return turn(frame, transform.axis, value);
+  if (transform.rotates) return turn_frame(frame, transform.axis, value);
   frame.origin = plus(frame.origin, scaled(value, frame.axes[static_cast<std::size_t>(transform.axis)]));
 }
 
@@ -146,7 +147,7 @@ SymbolicFrame moved(const SymbolicFrame& frame, const SymbolicMotion& motion) {
   const SymbolicVector vector{motion[3], motion[4], motion[5]};
   const auto turns = std::ranges::count_if(vector, [](Expression component) { return !component.is(0.0); });
   if (turns == 1) {
-    for (int axis = 0; axis < 3; ++axis) turn(result, axis, vector[static_cast<std::size_t>(axis)]);
+    for (int axis = 0; axis < 3; ++axis) turn_frame(result, axis, vector[static_cast<std::size_t>(axis)]);
   } else if (turns > 1) {
     const SymbolicFrame by = rotation(frame.algebra(), vector);
     for (std::size_t i = 0; i < 3; ++i) result.axes[i] = frame.direction(by.axes[i]);
@@ -171,13 +172,13 @@ SymbolicState symbolic_state(Algebra& algebra, const Robot& robot, const std::ve
 }
 
 Expression effort(const SymbolicState& state, int joint, const Eigen::Vector3d& gravity_mps2) {
-  const SymbolicVector& axis = place(state, joint).axes[2];
+  const SymbolicVector& axis = joint_frame(state, joint).axes[2];
   if (is_revolute(state.robot->chain, joint)) return dot(axis, moment(state, joint, gravity_mps2));
-  return beyond(state, joint).mass_kg * dot(axis, constant_vector(state.algebra(), gravity_mps2));
+  return masses_beyond(state, joint).mass_kg * dot(axis, constant_vector(state.algebra(), gravity_mps2));
 }
 
 SymbolicVector gravity_moment(const SymbolicState& state, int joint) {
-  return place(state, joint).own_direction(moment(state, joint, state.robot->gravity_mps2));
+  return joint_frame(state, joint).own_direction(moment(state, joint, state.robot->gravity_mps2));
 }
 
 SymbolicVector lever_moment(const SymbolicState& state, int joint, const WeightPart& part) {
@@ -185,9 +186,9 @@ SymbolicVector lever_moment(const SymbolicState& state, int joint, const WeightP
   const double strength = gravity_mps2.norm();
   if (strength == 0.0) return constant_vector(state.algebra(), Eigen::Vector3d::Zero());
   const SymbolicFrame& link = state.links[static_cast<std::size_t>(part.link)];
-  const SymbolicVector arm =
-      part.axis == 3 ? minus(link.origin, place(state, joint).origin) : link.axes[static_cast<std::size_t>(part.axis)];
-  return place(state, joint).own_direction(cross(arm, constant_vector(state.algebra(), gravity_mps2 / strength)));
+  const SymbolicVector arm = part.axis == 3 ? minus(link.origin, joint_frame(state, joint).origin)
+                                            : link.axes[static_cast<std::size_t>(part.axis)];
+  return joint_frame(state, joint).own_direction(cross(arm, constant_vector(state.algebra(), gravity_mps2 / strength)));
 }
 
 Expression lever(const SymbolicState& state, int joint, const WeightPart& part, const Eigen::Vector3d& gravity_mps2) {
@@ -195,12 +196,12 @@ Expression lever(const SymbolicState& state, int joint, const WeightPart& part, 
   const double strength = gravity_mps2.norm();
   if (strength == 0.0) return algebra.constant(0.0);
   const SymbolicVector down = constant_vector(algebra, gravity_mps2 / strength);
-  const SymbolicVector& axis = place(state, joint).axes[2];
+  const SymbolicVector& axis = joint_frame(state, joint).axes[2];
   const SymbolicFrame& link = state.links[static_cast<std::size_t>(part.link)];
   const bool mass = part.axis == 3;
   if (!is_revolute(state.robot->chain, joint)) return mass ? dot(axis, down) : algebra.constant(0.0);
   const SymbolicVector arm =
-      mass ? minus(link.origin, place(state, joint).origin) : link.axes[static_cast<std::size_t>(part.axis)];
+      mass ? minus(link.origin, joint_frame(state, joint).origin) : link.axes[static_cast<std::size_t>(part.axis)];
   return dot(axis, cross(arm, down));
 }
 

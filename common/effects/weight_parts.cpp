@@ -57,8 +57,8 @@ std::vector<WeightPart> parts_told_apart(const Robot& robot, int joint, std::siz
   return kept;
 }
 
-constexpr int kStates = 64;
-Interval range_of(const Robot& robot, const Evidence& evidence, std::size_t joint) {
+constexpr int kDrawnStates = 64;
+Interval drawn_range(const Robot& robot, const Evidence& evidence, std::size_t joint) {
   if (joint < evidence.joint_ranges.size()) return evidence.joint_ranges[joint];
   const Joint& link = robot.chain.joints[joint];
   if (!is_revolute(link)) return {link.lower, link.upper};
@@ -182,11 +182,11 @@ std::optional<WeightPart> weight_part(std::string_view name) {
 
 std::vector<ArmState> sampled_states(const Robot& robot, const Evidence& evidence, double payload_kg) {
   std::vector<ArmState> states;
-  states.reserve(kStates);
-  for (int index = 1; index <= kStates; ++index) {
+  states.reserve(kDrawnStates);
+  for (int index = 1; index <= kDrawnStates; ++index) {
     JointVector joints(robot.chain.size());
     for (std::size_t i = 0; i < robot.chain.joints.size(); ++i) {
-      const Interval range = range_of(robot, evidence, i);
+      const Interval range = drawn_range(robot, evidence, i);
       joints[static_cast<Eigen::Index>(i)] = range.lower + (range.upper - range.lower) * spread_share(index, i);
     }
     Stop stop(joints);

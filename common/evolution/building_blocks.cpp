@@ -27,7 +27,7 @@ bool holds_constant(const Tree& form, Primitive function) {
 }
 
 /// Of two arguments in canonical form.
-Tree joined(Primitive function, Tree a, Tree b) {
+Tree apply_canonically(Primitive function, Tree a, Tree b) {
   if (is_unknown_constant(a) && is_unknown_constant(b)) return a;
   if (is_unknown_constant(b) && function == Primitive::subtract) function = Primitive::add;
   if (is_unknown_constant(b) && function == Primitive::divide) function = Primitive::multiply;
@@ -48,7 +48,7 @@ Tree form_from(const Tree& formula, std::size_t& position) {
   Tree first = form_from(formula, position);
   if (arity(node.primitive) == 1) return is_unknown_constant(first) ? first : apply(node.primitive, std::move(first));
   Tree second = form_from(formula, position);
-  return joined(node.primitive, std::move(first), std::move(second));
+  return apply_canonically(node.primitive, std::move(first), std::move(second));
 }
 
 bool is_block(std::span<const Node> form) {
@@ -87,7 +87,7 @@ std::map<Tree, std::set<Tree, Precedes>, Precedes> blocks_of(const Tree& form) {
   return blocks;
 }
 
-void count(const IslandFront& front, std::size_t island, Forms& forms) {
+void count_blocks(const IslandFront& front, std::size_t island, Forms& forms) {
   for (const Individual& member : front.members) {
     const auto worse = [&](const Individual& other) { return other.fitness > member.fitness; };
     const auto beaten = static_cast<double>(std::count_if(front.members.begin(), front.members.end(), worse));
@@ -130,7 +130,7 @@ std::string block_text(const Tree& form, const VariableNames& names) {
 
 std::vector<BuildingBlock> building_blocks(std::span<const IslandFront> fronts, const BlockLimits& limits) {
   Forms forms;
-  for (std::size_t i = 0; i < fronts.size(); ++i) count(fronts[i], i + 1, forms);
+  for (std::size_t i = 0; i < fronts.size(); ++i) count_blocks(fronts[i], i + 1, forms);
   std::vector<BuildingBlock> blocks;
   for (const auto& [form, occurrences] : forms) {
     if (occurrences.joints.size() < limits.least_joints || functions_in(form) < limits.least_functions) continue;

@@ -19,16 +19,16 @@
 namespace demecal::inline evolution {
 namespace {
 
-constexpr std::size_t kMostTried = 200;     // structures of a search that are looked at closely
-constexpr int kMostArguments = 2;           // what takes more says little of what it stands for
-constexpr std::size_t kLeastFunctions = 3;  // smaller structures save little, and evolution makes them anew with ease
+constexpr std::size_t kMostStructures = 200;  // structures of a search that are looked at closely
+constexpr int kMostArguments = 2;             // what takes more says little of what it stands for
+constexpr std::size_t kLeastFunctions = 3;    // smaller structures save little, and evolution makes them anew with ease
 
 // In structures, before their places are numbered.
 const Node kCoefficient{Primitive::constant, 0, 0.0};
 const Node kArgument{Primitive::variable, 0, 0.0};
 
 /// The form with a different number for each constant, since none is known to equal another.
-Tree numbered(Tree form) {
+Tree with_numbered_constants(Tree form) {
   double number = 0.0;
   for (Node& node : form) {
     if (node.primitive != Primitive::variable) continue;
@@ -100,12 +100,12 @@ std::vector<Tree> promising(std::span<const std::vector<Tree>> forms) {
   std::ranges::stable_sort(by_savings, std::ranges::greater{}, [](const auto& entry) { return entry.first; });
   std::vector<Tree> best;
   for (auto& [savings, structure] : by_savings)
-    if (best.size() < kMostTried) best.push_back(std::move(structure));
+    if (best.size() < kMostStructures) best.push_back(std::move(structure));
   return best;
 }
 
 /// The structure as a function: every argument another, or all of them one.
-SharedFunction function_of(const Tree& structure, bool one_argument) {
+SharedFunction as_function(const Tree& structure, bool one_argument) {
   SharedFunction function{structure, 0};
   function.coefficients = static_cast<int>(std::ranges::count(structure, Primitive::constant, &Node::primitive));
   std::uint8_t coefficient = 0, argument = static_cast<std::uint8_t>(function.coefficients);
@@ -124,7 +124,7 @@ std::vector<SharedFunction> candidates_among(std::span<const std::vector<Tree>> 
     const auto arguments = std::ranges::count(structure, Primitive::variable, &Node::primitive);
     for (const bool one : {true, false}) {
       if (one && arguments < 2) continue;
-      SharedFunction function = function_of(structure, one);
+      SharedFunction function = as_function(structure, one);
       const bool is_wanted = function.coefficients > 0 && arity(function) - function.coefficients <= kMostArguments;
       if (is_wanted && !find_fault(function)) candidates.push_back(std::move(function));
     }
@@ -155,7 +155,7 @@ std::vector<std::vector<Tree>> forms_of(std::span<const std::vector<Tree>> formu
   std::vector<std::vector<Tree>> forms;
   for (const std::vector<Tree>& of_joint : formulas) {
     std::set<Tree, Precedes> different;
-    for (const Tree& formula : of_joint) different.insert(numbered(block_form(formula)));
+    for (const Tree& formula : of_joint) different.insert(with_numbered_constants(block_form(formula)));
     forms.emplace_back(different.begin(), different.end());
   }
   return forms;

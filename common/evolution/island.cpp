@@ -23,7 +23,7 @@ bool stands_in(const Population& population, const Tree& tree) {
   return std::any_of(population.begin(), population.end(), [&](const Individual& one) { return one.tree == tree; });
 }
 
-std::vector<double> fitness_of(const Population& population) {
+std::vector<double> population_fitness(const Population& population) {
   std::vector<double> fitness;
   for (const Individual& individual : population) fitness.push_back(individual.fitness);
   return fitness;
@@ -113,7 +113,7 @@ void Island::enter_population(RandomStream& random) {
   }
   if (!residents_.roots.empty()) return;
   for (const Individual& individual : state_.population) residents_.roots.push_back(breeder_.enter(individual.tree));
-  residents_.fitness = fitness_of(state_.population);
+  residents_.fitness = population_fitness(state_.population);
   residents_.models = residents_.roots;
   forget_models();
 }
@@ -194,7 +194,7 @@ void Island::accept_immigrants(const Population& immigrants, RandomStream& rando
 
 Population Island::emigrants() const {
   Population chosen;
-  for (const std::size_t i : ranking(fitness_of(state_.population))) {
+  for (const std::size_t i : ranking(population_fitness(state_.population))) {
     const Individual& individual = state_.population[i];
     if (chosen.size() >= archipelago_.migrants || !std::isfinite(individual.fitness)) break;
     if (!stands_in(chosen, individual.tree)) chosen.push_back(individual);
@@ -204,7 +204,7 @@ Population Island::emigrants() const {
 
 IslandFigures Island::figures() const {
   if (state_.population.empty()) return {};
-  const std::vector<std::size_t> ranked = ranking(fitness_of(state_.population));
+  const std::vector<std::size_t> ranked = ranking(population_fitness(state_.population));
   const Individual& best = state_.population[ranked.front()];
   const Individual& median = state_.population[ranked[(ranked.size() - 1) / 2]];
   return {best.fitness, median.fitness, static_cast<std::uint32_t>(best.tree.size()),
@@ -213,7 +213,7 @@ IslandFigures Island::figures() const {
 
 const Individual* Island::best() const {
   if (state_.population.empty()) return nullptr;
-  return &state_.population[ranking(fitness_of(state_.population)).front()];
+  return &state_.population[ranking(population_fitness(state_.population)).front()];
 }
 
 void Island::restore(IslandState state) {

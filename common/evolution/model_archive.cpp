@@ -25,17 +25,17 @@ Tree FormulaRefiner::fitted(const Tree& simple) {
 
 namespace {
 
-constexpr double kNear = 4.0;  // times the least mean square
+constexpr double kWorthKeeping = 4.0;  // times the least mean square
 
-void append(std::vector<double>& column, const std::vector<double>& more) {
+void append_rows(std::vector<double>& column, const std::vector<double>& more) {
   column.insert(column.end(), more.begin(), more.end());
 }
 
-TrainingTable joined(TrainingTable rows, const TrainingTable& more) {
+TrainingTable stacked_tables(TrainingTable rows, const TrainingTable& more) {
   DEMECAL_CHECK(rows.variables.size() == more.variables.size(), rows.variables.size() << ", " << more.variables.size());
-  for (std::size_t i = 0; i < rows.variables.size(); ++i) append(rows.variables[i], more.variables[i]);
-  append(rows.target, more.target);
-  append(rows.weight, more.weight);
+  for (std::size_t i = 0; i < rows.variables.size(); ++i) append_rows(rows.variables[i], more.variables[i]);
+  append_rows(rows.target, more.target);
+  append_rows(rows.weight, more.weight);
   return rows;
 }
 
@@ -44,7 +44,7 @@ TrainingTable joined(TrainingTable rows, const TrainingTable& more) {
 ModelArchive::ModelArchive(const TrainingTable& training, const TrainingTable& validation,
                            const GpParameters& parameters)
     : brief_(training, parameters),
-      rows_(joined(training, validation)),
+      rows_(stacked_tables(training, validation)),
       weights_(std::accumulate(rows_.weight.begin(), rows_.weight.end(), 0.0)),
       evaluate_(rows_.variables) {}
 
@@ -71,7 +71,7 @@ void ModelArchive::offer(const Population& front) {
     if (std::binary_search(last_.begin(), last_.end(), offered.back())) continue;
     const Tree tree = brief_.simplified(member.tree);
     const double square = offer(tree);
-    if (front_.members().empty() || square > kNear * front_.members().back().fitness) continue;
+    if (front_.members().empty() || square > kWorthKeeping * front_.members().back().fitness) continue;
     offer(brief_.fitted(tree));
   }
   last_ = std::move(offered);

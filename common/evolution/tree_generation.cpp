@@ -8,7 +8,7 @@
 namespace demecal::inline evolution {
 namespace {
 
-std::uint64_t hash_of(const Tree& tree) {
+std::uint64_t tree_hash(const Tree& tree) {
   std::uint64_t hash = tree.size();
   for (const Node& node : tree) {
     const auto label = static_cast<std::uint64_t>(node.primitive) << 8 | node.variable;
@@ -25,7 +25,7 @@ void TreeIndex::clear(std::size_t most) {
 }
 
 std::size_t TreeIndex::enter(const Tree& tree, std::size_t number) {
-  const std::uint64_t hash = hash_of(tree);
+  const std::uint64_t hash = tree_hash(tree);
   const std::size_t mask = slots_.size() - 1;
   std::size_t place = hash & mask;
   for (; slots_[place].tree != nullptr; place = (place + 1) & mask)

@@ -46,7 +46,7 @@ constexpr std::array<GroupWords, 9> kGroups{{
      "elsewhere."},
 }};
 
-const GroupWords& row_of(CauseGroup group) {
+const GroupWords& group_words(CauseGroup group) {
   const auto found = std::ranges::find(kGroups, group, &GroupWords::group);
   DEMECAL_CHECK(found != kGroups.end(), "cause group " << static_cast<int>(group));
   return *found;
@@ -76,17 +76,17 @@ std::vector<ErrorCause> causes_of(const CorrectedRobot& robot) {
 }
 
 std::string_view to_string(CauseGroup group) {
-  return row_of(group).word;
+  return group_words(group).word;
 }
 
 std::string to_string(const ErrorCause& cause) {
-  const GroupWords& words = row_of(cause.group);
+  const GroupWords& words = group_words(cause.group);
   if (cause.joint < 0) return std::string(words.of_arm.empty() ? words.of_joint : words.of_arm);
   return std::string(words.of_joint) + " of joint " + std::to_string(cause.joint + 1);
 }
 
 std::string advice_on(const ErrorCause& cause) {
-  return std::string(row_of(cause.group).advice);
+  return std::string(group_words(cause.group).advice);
 }
 
 }  // namespace demecal::inline explanations

@@ -5,7 +5,6 @@
 #include <functional>
 #include <iterator>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include "data/data_set.hpp"
@@ -14,6 +13,7 @@
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline explanations {
 namespace {
@@ -24,10 +24,6 @@ SquaredErrors_mm2 squared_errors(const DataSet& data, std::span<const std::size_
   SquaredErrors_mm2 errors;
   for (const double error_m : tool_errors_m(robot, data, poses)) errors.push_back(std::pow(millimetres(error_m), 2));
   return errors;
-}
-
-double mean_of(const SquaredErrors_mm2& errors) {
-  return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 
 /// The poses on which models are judged: those with a tool error that is not gross.
@@ -110,7 +106,7 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
   std::vector<SquaredErrors_mm2> errors;
   for (const EffectSet& set : sets) {
     errors.push_back(squared_errors(problem.data, judging, models.with(set.effects).robot));
-    front.points.push_back({set.effects, set.causes, std::sqrt(mean_of(errors.back()))});
+    front.points.push_back({set.effects, set.causes, std::sqrt(mean(errors.back()))});
   }
   if (sets.empty()) return front;
   const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
@@ -137,7 +133,7 @@ void choose(const DiagnosisProblem& problem, const DiagnosedModel& model, Explan
       if (effect.same_law_as(front.effects[i].effect)) point.set.push_back(i);
   point.causes = causes_of(model.robot).size();
   point.validation_rms_mm =
-      std::sqrt(mean_of(squared_errors(problem.data, judging_poses(problem, model.robot), model.robot)));
+      std::sqrt(mean(squared_errors(problem.data, judging_poses(problem, model.robot), model.robot)));
   if (!front.points.empty()) front.points.erase(front.points.begin() + static_cast<std::ptrdiff_t>(front.chosen));
   std::erase_if(front.points, [&](const ExplanationFront::Point& one) { return one.causes == point.causes; });
   const auto place = std::ranges::lower_bound(front.points, point.causes, {}, &ExplanationFront::Point::causes);
@@ -178,12 +174,12 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
     return squared_errors(problem.data, judging, models.with(set).robot);
   };
   const SquaredErrors_mm2 with = errors_of(models.held());
-  const double bare_mm2 = mean_of(errors_of({}));
+  const double bare_mm2 = mean(errors_of({}));
   for (const ErrorCause& cause : causes) {
     std::vector<std::size_t> others = models.held();
     std::erase_if(others, [&](std::size_t effect) { return std::ranges::binary_search(cause.effects, effect); });
     const SquaredErrors_mm2 without = errors_of(others);
-    const double without_mm2 = mean_of(without), with_mm2 = mean_of(with);
+    const double without_mm2 = mean(without), with_mm2 = mean(with);
     budget.causes.push_back({.cause = cause,
                              .without_mm = std::sqrt(without_mm2),
                              .with_mm = std::sqrt(with_mm2),

@@ -97,7 +97,7 @@ Interval image_of_logarithm(const Interval& x) {
   return rising(protected_logarithm(size.lower), greatest);
 }
 
-Interval within(const Interval& values, double lower, double upper) {
+Interval clipped(const Interval& values, double lower, double upper) {
   return {std::max(lower, values.lower), std::min(upper, values.upper)};
 }
 
@@ -133,7 +133,7 @@ Interval image(Primitive function, const Interval& x) {
     case Primitive::exponential:
       return rising(bounded_exponential(x.lower), bounded_exponential(x.upper));
     case Primitive::hyperbolic_tangent:
-      return within(rising(hyperbolic_tangent(x.lower), hyperbolic_tangent(x.upper)), -1.0, 1.0);
+      return clipped(rising(hyperbolic_tangent(x.lower), hyperbolic_tangent(x.upper)), -1.0, 1.0);
     case Primitive::arc_tangent:
       return rising(arc_tangent(x.lower), arc_tangent(x.upper));
     case Primitive::square:
@@ -228,19 +228,19 @@ class IntervalWalk {
   std::vector<Interval> stack_;
 };
 
-double size_of(const Interval& values) {
+double magnitude(const Interval& values) {
   return std::max(std::abs(values.lower), std::abs(values.upper));
 }
 
 bool stays_within(IntervalWalk& walk, const Interval& piece, double largest, int halvings) {
-  if (size_of(walk(piece)) <= largest) return true;
+  if (magnitude(walk(piece)) <= largest) return true;
   if (halvings == 0) return false;
   const double middle = std::midpoint(piece.lower, piece.upper);
   return stays_within(walk, {piece.lower, middle}, largest, halvings - 1) &&
          stays_within(walk, {middle, piece.upper}, largest, halvings - 1);
 }
 
-void check_range(const Interval& range) {
+void check_finite_range(const Interval& range) {
   DEMECAL_CHECK(range.lower <= range.upper && std::isfinite(range.upper - range.lower),
                 "range=" << range.lower << ".." << range.upper);
 }
@@ -248,7 +248,7 @@ void check_range(const Interval& range) {
 }  // namespace
 
 Interval bound(std::span<const Node> tree, Interval range, int pieces) {
-  check_range(range);
+  check_finite_range(range);
   DEMECAL_CHECK(pieces >= 1, "pieces=" << pieces);
   IntervalWalk walk(tree);
   const auto end_of = [&](int piece) {
@@ -260,11 +260,11 @@ Interval bound(std::span<const Node> tree, Interval range, int pieces) {
 }
 
 double magnitude_bound(std::span<const Node> tree, Interval range, int pieces) {
-  return size_of(bound(tree, range, pieces));
+  return magnitude(bound(tree, range, pieces));
 }
 
 bool stays_within(std::span<const Node> tree, Interval range, double largest, int halvings) {
-  check_range(range);
+  check_finite_range(range);
   IntervalWalk walk(tree);
   return stays_within(walk, range, largest, halvings);
 }

@@ -19,11 +19,11 @@
 namespace demecal::inline expression {
 namespace {
 
-double value_at(std::span<const Node> tree, double x) {
+double evaluated_at(std::span<const Node> tree, double x) {
   return evaluate(tree, std::span<const double>(&x, 1));
 }
 
-// The subtrees value_at whose zeros a formula can jump: arguments of SIGN and LOGp, and divisors.
+// The subtrees at whose zeros a formula can jump: arguments of SIGN and LOGp, and divisors.
 std::vector<std::span<const Node>> switches(std::span<const Node> tree) {
   std::vector<std::span<const Node>> found;
   for (std::size_t i = 0; i < tree.size(); ++i) {
@@ -36,14 +36,14 @@ std::vector<std::span<const Node>> switches(std::span<const Node> tree) {
 }
 
 // Two points as near as doubles lie, or next to zero as near as matters, between which `subtree` leaves the sign that
-// it has value_at `before`.
+// it has at `before`.
 Interval bisected(std::span<const Node> subtree, double before, double after) {
-  const double sign = sign_of(value_at(subtree, before));
+  const double sign = sign_of(evaluated_at(subtree, before));
   constexpr int kMostHalvings = 200;
   for (int i = 0; i < kMostHalvings; ++i) {
     const double middle = std::midpoint(before, after);
     if (middle == before || middle == after) break;
-    (sign_of(value_at(subtree, middle)) == sign ? before : after) = middle;
+    (sign_of(evaluated_at(subtree, middle)) == sign ? before : after) = middle;
   }
   return {before, after};
 }
@@ -51,7 +51,7 @@ Interval bisected(std::span<const Node> subtree, double before, double after) {
 // Where the size of `subtree` is least between two points, by golden sections.
 double least_size(std::span<const Node> subtree, double from, double to) {
   constexpr double kGolden = 1.0 / std::numbers::phi;
-  const auto size = [&](double x) { return std::abs(value_at(subtree, x)); };
+  const auto size = [&](double x) { return std::abs(evaluated_at(subtree, x)); };
   double left = to - kGolden * (to - from);
   double right = from + kGolden * (to - from);
   double size_left = size(left);
@@ -90,8 +90,8 @@ class JumpSearch {
   void at_touch(std::span<const Node> subtree, double before, double after) {
     const double least = least_size(subtree, before, after);
     constexpr double kNegligible = 1e-6;
-    const double beside = std::max(std::abs(value_at(subtree, before)), std::abs(value_at(subtree, after)));
-    if (std::abs(value_at(subtree, least)) > kNegligible * beside) return;
+    const double beside = std::max(std::abs(evaluated_at(subtree, before)), std::abs(evaluated_at(subtree, after)));
+    if (std::abs(evaluated_at(subtree, least)) > kNegligible * beside) return;
     const double place = first_zero(subtree, {below(least), above(least), std::clamp(0.0, before, after), least});
     const double reach = 1e-8 * (range_.upper - range_.lower);
     report_if_jump(place, {std::max(range_.lower, place - reach), below(place), place, above(place),
@@ -116,7 +116,8 @@ class JumpSearch {
 
   // The first place where the subtree is zero, else the last.
   static double first_zero(std::span<const Node> subtree, std::initializer_list<double> places) {
-    const auto zero = std::find_if(places.begin(), places.end(), [&](double x) { return value_at(subtree, x) == 0.0; });
+    const auto zero =
+        std::find_if(places.begin(), places.end(), [&](double x) { return evaluated_at(subtree, x) == 0.0; });
     return zero == places.end() ? *(zero - 1) : *zero;
   }
 
@@ -124,7 +125,7 @@ class JumpSearch {
     double least = std::numeric_limits<double>::infinity();
     double greatest = -least;
     for (const double x : around) {
-      const double value = value_at(tree_, x);
+      const double value = evaluated_at(tree_, x);
       least = std::min(least, value);
       greatest = std::max(greatest, value);
     }

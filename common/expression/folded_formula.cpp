@@ -18,7 +18,7 @@ namespace demecal::inline expression {
 namespace {
 
 constexpr std::size_t kMostNames = 255;
-constexpr int kMostSteps =
+constexpr int kMostMatchingSteps =
     10'000;  // of one match: bodies from elsewhere may have arguments in more orders than can be tried
 
 /// Where a call's places begin in the formula that it stands in.
@@ -60,7 +60,7 @@ class Folding {
     for (std::size_t i = 0; i < functions_.size(); ++i) {
       if (functions_[i].body.front().primitive != tree_[begin].primitive) continue;
       Bindings bindings(static_cast<std::size_t>(arity(functions_[i])));
-      int steps = kMostSteps;
+      int steps = kMostMatchingSteps;
       if (!matches(functions_[i], {{0, begin}}, bindings, steps)) continue;
       Way call{1, i + 1, {}};
       for (const auto& place : bindings) {

@@ -21,7 +21,7 @@ std::uint64_t content_of(const SharedNode& node) {
 std::uint64_t label_of(const SharedNode& node) {
   return static_cast<std::uint64_t>(node.primitive) << 8 | node.variable;
 }
-std::uint64_t hash_of(const SharedNode& node) {
+std::uint64_t node_hash(const SharedNode& node) {
   return mixed(mixed(content_of(node)) + label_of(node));
 }
 bool are_equal(const SharedNode& a, const SharedNode& b) {
@@ -35,7 +35,7 @@ bool is_within_limits(int nodes, int depth) {
   DEMECAL_CHECK(is_within_limits(nodes, depth), "nodes=" << nodes << " depth=" << depth);
 }
 
-TreeExtent joined(const TreeExtent& a, const TreeExtent& b) {
+TreeExtent extent_above(const TreeExtent& a, const TreeExtent& b) {
   const int nodes = 1 + a.nodes + b.nodes;
   const int depth = 1 + std::max(a.depth, b.depth);
   if (!is_within_limits(nodes, depth)) fail_limits(nodes, depth);
@@ -78,7 +78,7 @@ NodeId NodeStore::store(const SharedNode& node, std::uint64_t hash) {
 
 void NodeStore::enter_in_table(NodeId id) {
   const std::size_t mask = slots_.size() - 1;
-  const std::uint64_t hash = hash_of(nodes_[id]);
+  const std::uint64_t hash = node_hash(nodes_[id]);
   std::size_t place = hash & mask;
   while (slots_[place].id != 0) place = (place + 1) & mask;
   slots_[place] = {id, tag_of(hash)};
@@ -97,7 +97,7 @@ NodeId NodeStore::terminal(const Node& node) {
   shared.value = node.value;
   shared.is_constant = node.primitive == Primitive::constant;
   shared.whole = {1, 1, 0};
-  return store(shared, hash_of(shared));
+  return store(shared, node_hash(shared));
 }
 
 NodeId NodeStore::function(Primitive primitive, NodeId left, NodeId right) {
@@ -107,13 +107,13 @@ NodeId NodeStore::function(Primitive primitive, NodeId left, NodeId right) {
   shared.primitive = primitive;
   shared.left = left;
   shared.right = right;
-  shared.whole = joined(a.whole, b.whole);
+  shared.whole = extent_above(a.whole, b.whole);
   shared.of_left = a.whole;
   shared.depth_of_right = b.whole.depth;
   shared.is_constant = a.is_constant && (right == 0 || b.is_constant);
   if (shared.is_constant)
     shared.value = right == 0 ? value_of(primitive, a.value) : value_of(primitive, a.value, b.value);
-  return store(shared, hash_of(shared));
+  return store(shared, node_hash(shared));
 }
 
 NodeId NodeStore::enter(std::span<const Node> tree) {

@@ -21,7 +21,7 @@ Precedence precedence_of(Primitive function) {
   return function == Primitive::add || function == Primitive::subtract ? Precedence::sum : Precedence::product;
 }
 
-std::string written(double constant) {
+std::string constant_text(double constant) {
   std::array<char, 32> digits;
   const std::to_chars_result end = std::to_chars(digits.data(), digits.data() + digits.size(), constant);
   return {digits.data(), end.ptr};
@@ -206,7 +206,7 @@ std::string to_string(std::span<const Node> tree, const VariableNames& names) {
   return fold<InfixText>(
              tree,
              [&](const Node& node) {
-               if (node.primitive == Primitive::constant) return InfixText{written(node.value)};
+               if (node.primitive == Primitive::constant) return InfixText{constant_text(node.value)};
                DEMECAL_CHECK(node.variable < names.size(), "variable=" << int{node.variable});
                return InfixText{names[node.variable]};
              },

@@ -10,11 +10,9 @@ namespace {
 
 constexpr std::size_t kMostUnknowns = 24;  // further constants stay as they are
 constexpr double kFirstDamping = 1e-3, kLeastDamping = 1e-9, kMostDamping = 1e6;
-constexpr double kLeastGain = 1e-5;   // of the loss, by a step that is worth another
-constexpr double kSmallError = 0.02;  // of the mean: smaller ones count as this large in their weights
-constexpr int kSearchCalls = 4;       // of the simplex, for each step
-
-using Strip = std::array<double, DampedNormalEquations::kMostRowsAtOnce>;
+constexpr double kLeastLossGain = 1e-5;  // of the loss, by a step that is worth another
+constexpr double kSmallError = 0.02;     // of the mean: smaller ones count as this large in their weights
+constexpr int kSearchCalls = 4;          // of the simplex, for each step
 
 // Errors and the weights of their squares. A least size above 0 makes the sum of squares that of absolute errors.
 DEMECAL_FOR_EACH_VECTOR_UNIT
@@ -123,7 +121,7 @@ void ConstantFit::scale() {
 
 // Of the formula at constants_. The model's values are those at constants_ where there is one strip of rows.
 void ConstantFit::sum_products() {
-  alignas(64) Strip error, square_weight;
+  alignas(64) DampedNormalEquations::Strip error, square_weight;
   equations_.clear(unknowns_);
   const double least_size = loss_kind_ == Loss::squared ? 0.0 : kSmallError * loss_ / weights_;
   for (std::size_t begin = 0; begin < model_.padded_rows(); begin += model_.rows_at(begin)) {
@@ -160,7 +158,7 @@ bool ConstantFit::step(double& damping) {
   loss_ = loss;
   products_known_ = false;
   damping = std::max(0.1 * damping, kLeastDamping);
-  return gain > kLeastGain * loss;
+  return gain > kLeastLossGain * loss;
 }
 
 void ConstantFit::fit() {

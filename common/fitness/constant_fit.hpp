@@ -21,6 +21,7 @@ namespace demecal::inline fitness {
 class DampedNormalEquations {
  public:
   static constexpr std::size_t kMostRowsAtOnce = 256;
+  using Strip = std::array<double, kMostRowsAtOnce>;  ///< a number of each row
 
   void clear(std::size_t unknowns);
   /// Adds rows, a multiple of kLanes and at most kMostRowsAtOnce; slopes[i] is column i of J.

@@ -31,7 +31,7 @@ double Fitness::operator()(const Tree& tree) {
 
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotEvaluated = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -41,7 +41,7 @@ SharedFitness::SharedFitness(const TrainingTable& table, std::size_t budget_byte
 }
 
 void SharedFitness::bind(const NodeStore& store, std::span<const NodeId> roots) {
-  known_.resize(store.end(), kUnknown);
+  known_.resize(store.end(), kNotEvaluated);
   asked_.clear();
   for (const NodeId root : roots) {
     if (!std::isnan(known_[root])) continue;
@@ -62,13 +62,13 @@ void SharedFitness::run() {
 
 void SharedFitness::forget(std::span<const NodeId> dropped) {
   for (const NodeId id : dropped)
-    if (id < known_.size()) known_[id] = kUnknown;
+    if (id < known_.size()) known_[id] = kNotEvaluated;
   evaluator_.forget(dropped);
 }
 
 namespace {
 
-Interval range_of(const TrainingTable& table) {
+Interval trained_range(const TrainingTable& table) {
   if (table.target.empty()) return {};
   const auto [least, greatest] = std::minmax_element(table.variables.front().begin(), table.variables.front().end());
   return {*least, *greatest};
@@ -77,7 +77,7 @@ Interval range_of(const TrainingTable& table) {
 }  // namespace
 
 SafeFormulas::SafeFormulas(const TrainingTable& table)
-    : is_on_(std::isfinite(table.limit)), limit_(table.limit), range_(range_of(table)) {}
+    : is_on_(std::isfinite(table.limit)), limit_(table.limit), range_(trained_range(table)) {}
 
 bool SafeFormulas::operator()(const NodeStore& store, NodeId root) {
   if (!is_on_) return true;

@@ -14,7 +14,6 @@ namespace demecal::inline fitness {
 namespace {
 
 using Lanes = std::array<double, kLanes>;
-using Strip = std::array<double, DampedNormalEquations::kMostRowsAtOnce>;
 
 DEMECAL_FOR_EACH_VECTOR_UNIT
 void weigh(const double* column, const double* weight, double* out, std::size_t rows) {

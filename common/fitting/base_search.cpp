@@ -32,7 +32,7 @@ constexpr double kFarLess = 0.25;  ///< of the cost, below which another minimum
 
 /// At most `count` of the poses, spread over all: multiples of a stride that shares no divisor with their number, so
 /// that targets measured in turn all occur.
-std::vector<std::size_t> spread(std::span<const std::size_t> poses, std::size_t count) {
+std::vector<std::size_t> spread_poses(std::span<const std::size_t> poses, std::size_t count) {
   if (poses.size() <= count) return {poses.begin(), poses.end()};
   auto stride = static_cast<std::size_t>(static_cast<double>(poses.size()) / std::numbers::phi);
   while (std::gcd(stride, poses.size()) != 1) ++stride;
@@ -69,7 +69,7 @@ class BaseSearch {
         start_(start),
         tool_(declared.tool),
         ids_(free_parameters(data, {.registration = declared.registration, .tool = declared.tool})),
-        observations_(observe(data, spread(poses, static_cast<std::size_t>(options.start_poses)), start)),
+        observations_(observe(data, spread_poses(poses, static_cast<std::size_t>(options.start_poses)), start)),
         scales_(search_scales(count_rows(data, observations_), tool_)) {}
 
   CorrectedRobot best_of(const std::vector<Eigen::Isometry3d>& bases) const {
@@ -213,7 +213,7 @@ struct ToolMiddle {
 };
 
 /// The mean point of the tool and its mean distance from the anchors.
-ToolMiddle middle_of(const DataSet& data, const std::vector<Observation>& observations, const CorrectedRobot& robot) {
+ToolMiddle tool_middle(const DataSet& data, const std::vector<Observation>& observations, const CorrectedRobot& robot) {
   ToolMiddle middle;
   double distances = 0.0;
   for (const Observation& observation : observations) {
@@ -225,8 +225,8 @@ ToolMiddle middle_of(const DataSet& data, const std::vector<Observation>& observ
   return middle;
 }
 
-double misfit(const DataSet& data, const std::vector<Observation>& observations, CorrectedRobot robot,
-              const Eigen::Isometry3d& base) {
+double distance_misfit(const DataSet& data, const std::vector<Observation>& observations, CorrectedRobot robot,
+                       const Eigen::Isometry3d& base) {
   robot.sensor_from_base = base;
   return root_mean_squares(data, robot, observations)[kDistance];
 }
@@ -234,7 +234,7 @@ double misfit(const DataSet& data, const std::vector<Observation>& observations,
 std::vector<Eigen::Isometry3d> candidates_from_distances(const DataSet& data,
                                                          const std::vector<Observation>& observations,
                                                          const CorrectedRobot& robot, int count) {
-  const ToolMiddle middle = middle_of(data, observations, robot);
+  const ToolMiddle middle = tool_middle(data, observations, robot);
   Eigen::Vector3d anchors = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& anchor : data.anchors_m) anchors += anchor / static_cast<double>(data.anchors_m.size());
   std::vector<std::pair<double, Eigen::Isometry3d>> ranked;
@@ -242,7 +242,7 @@ std::vector<Eigen::Isometry3d> candidates_from_distances(const DataSet& data,
     for (const Eigen::Vector3d& place : cube_directions()) {
       const Eigen::Isometry3d base =
           base_through(spread_rotation(i, count), middle.in_base, anchors + middle.distance_m * place);
-      ranked.emplace_back(misfit(data, observations, robot, base), base);
+      ranked.emplace_back(distance_misfit(data, observations, robot, base), base);
     }
   }
   std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -29,7 +29,7 @@ void require_joinable(const DataSet& set, const DataSet& first) {
 }
 
 /// The robot where base and tool alone have it.
-CorrectedRobot placed(const DataSet& set) {
+CorrectedRobot placed_robot(const DataSet& set) {
   const Fit fit = fit_registration(set, poses_of(set, PoseSet::calibration), {.registration = true, .tool = true},
                                    nominal_robot(set));
   if (fit.status != FitStatus::converged)
@@ -107,13 +107,13 @@ DataSet joined_stations(std::vector<DataSet> sets, StationTools tools) {
   DataSet joined = std::move(sets.front());
   if (sets.size() == 1) return joined;
   require_joinable(joined, joined);
-  const CorrectedRobot first = placed(joined);
+  const CorrectedRobot first = placed_robot(joined);
   joined.stations = {{station_name(joined, {}), joined.sha256, Eigen::Isometry3d::Identity()}};
   std::set<std::string> taken{joined.stations.front().name};
   for (std::size_t i = 1; i < sets.size(); ++i) {
     DataSet& set = sets[i];
     require_joinable(set, joined);
-    const CorrectedRobot own = placed(set);
+    const CorrectedRobot own = placed_robot(set);
     const Station station{station_name(set, taken), set.sha256,
                           first.sensor_from_base * own.sensor_from_base.inverse()};
     taken.insert(station.name);

@@ -27,7 +27,7 @@ namespace demecal::inline formula_search {
 namespace {
 
 /// The places in symbolic_variables of what these poses know and what varies.
-std::vector<std::uint8_t> variables_of(const Evidence& evidence, int joints) {
+std::vector<std::uint8_t> known_variables(const Evidence& evidence, int joints) {
   std::vector<std::uint8_t> known;
   const auto add = [&](int variable) { known.push_back(static_cast<std::uint8_t>(variable)); };
   for (int joint = 0; joint < joints; ++joint) {
@@ -50,16 +50,16 @@ std::vector<double> values_at(const ArmState& state, const Chain& chain, int joi
 }
 
 /// Weights from 0 to 1 of squared levers: the variance of an angle grows as its lever's square falls.
-std::vector<double> weights_of(const std::vector<double>& squared_levers) {
+std::vector<double> lever_weights(const std::vector<double>& squared_levers) {
   const double typical = median(squared_levers);
   std::vector<double> weights;
   for (const double lever : squared_levers) weights.push_back(typical > 0 ? std::min(1.0, lever / typical) : 0.0);
   return weights;
 }
 
-FormulaTable table_of(const Linearization& linearization, const Eigen::VectorXd& residual, const Chain& chain,
-                      int joint, const Evidence& evidence) {
-  FormulaTable result{joint, variables_of(evidence, chain.size()), {}, 1.0, std::nullopt};
+FormulaTable formula_table(const Linearization& linearization, const Eigen::VectorXd& residual, const Chain& chain,
+                           int joint, const Evidence& evidence) {
+  FormulaTable result{joint, known_variables(evidence, chain.size()), {}, 1.0, std::nullopt};
   if (evidence.temperature) result.reference_celsius = evidence.mean_temperature_celsius;
   result.table.variables.resize(result.variables.size());
   std::vector<double> squared_levers;
@@ -74,7 +74,7 @@ FormulaTable table_of(const Linearization& linearization, const Eigen::VectorXd&
       result.table.variables[k].push_back(values[result.variables[k]]);
     }
   }
-  result.table.weight = weights_of(squared_levers);
+  result.table.weight = lever_weights(squared_levers);
   double sum = 0.0, weights = 0.0;
   for (std::size_t i = 0; i < squared_levers.size(); ++i) {
     sum += result.table.weight[i] * std::abs(result.table.target[i]);
@@ -198,7 +198,7 @@ std::vector<FormulaTable> formula_tables(const DiagnosisProblem& problem, const 
   std::vector<FormulaTable> tables;
   for (int joint = 0; joint < chain.size(); ++joint) {
     if (!is_revolute(chain, joint)) continue;
-    tables.push_back(table_of(linearization, residual, chain, joint, evidence));
+    tables.push_back(formula_table(linearization, residual, chain, joint, evidence));
   }
   return tables;
 }

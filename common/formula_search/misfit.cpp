@@ -22,7 +22,7 @@ double vocabulary_size(const Tree& tree) {
   return static_cast<double>(last);
 }
 
-bool is_round(double value) {
+bool is_half_integer(double value) {
   return std::abs(2.0 * value - std::round(2.0 * value)) < 1e-12;
 }
 
@@ -109,7 +109,7 @@ double description_nats(const Tree& tree, int variables, std::size_t poses) {
   double nats = 0.0;
   for (const Node& node : tree) {
     nats += word_nats;
-    if (node.primitive == Primitive::constant && !is_round(node.value)) {
+    if (node.primitive == Primitive::constant && !is_half_integer(node.value)) {
       nats += 0.5 * std::log(static_cast<double>(std::max<std::size_t>(poses, 2)));
     }
   }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kMostConstants = 8;
 constexpr int kSteps = 30;
-constexpr double kNear = 0.15;  ///< of a round number
+constexpr double kNearRound = 0.15;  ///< of a round number
 
 std::vector<std::size_t> constants_of(const Tree& tree) {
   std::vector<std::size_t> places;
@@ -78,7 +78,7 @@ class ConstantsProblem {
   Eigen::MatrixXd jacobian_;
 };
 
-Tree fitted(Tree tree, const std::vector<std::size_t>& places, FormulaMisfit& misfit) {
+Tree with_fitted_constants(Tree tree, const std::vector<std::size_t>& places, FormulaMisfit& misfit) {
   ConstantsProblem problem(std::move(tree), places, misfit);
   levenberg_marquardt(problem, {.max_iterations = kSteps, .initial_damping = 1e-3, .max_damping = 1e6});
   return problem.tree();
@@ -246,10 +246,10 @@ class Rewriting {
 Tree polished(const Tree& tree, FormulaMisfit& misfit) {
   const double digits_nats = 0.5 * std::log(static_cast<double>(std::max<std::size_t>(misfit.poses(), 2)));
   std::vector<std::size_t> free = constants_of(tree);
-  Tree best = fitted(tree, free, misfit);
+  Tree best = with_fitted_constants(tree, free, misfit);
   for (std::size_t i = 0; i < free.size();) {
     const double value = best[free[i]].value, round = 0.5 * std::round(2.0 * value);
-    if (std::abs(value - round) > kNear) {
+    if (std::abs(value - round) > kNearRound) {
       ++i;
       continue;
     }
@@ -257,7 +257,7 @@ Tree polished(const Tree& tree, FormulaMisfit& misfit) {
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
     Tree rounded = best;
     rounded[free[i]].value = round;
-    rounded = fitted(std::move(rounded), others, misfit);
+    rounded = with_fitted_constants(std::move(rounded), others, misfit);
     if (misfit.nats(rounded) - misfit.nats(best) < digits_nats) {
       best = std::move(rounded);
       free = std::move(others);

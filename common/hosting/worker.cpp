@@ -16,7 +16,7 @@ namespace demecal::inline hosting {
 namespace {
 
 constexpr std::chrono::milliseconds kHeartbeat = kLease / 5, kLeastHeartbeat = kLease / 10;
-constexpr std::chrono::milliseconds kShutdownTimeout{1000}, kBatchTimeout{200}, kTick{10};
+constexpr std::chrono::milliseconds kShutdownTimeout{1000}, kBatchTimeout{200}, kIdleWait{10};
 constexpr std::chrono::milliseconds kAnnouncement{1000};
 constexpr std::size_t kMostEarlyTasks = 65536, kMostEnded = 4096;
 
@@ -112,7 +112,7 @@ void Worker::finish_batches() {
     if (const auto batch = host_.collect()) {
       report(*batch);
     } else {
-      transport_.receive(kTick);  // or until a slot wakes it
+      transport_.receive(kIdleWait);  // or until a slot wakes it
     }
   }
 }

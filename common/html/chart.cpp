@@ -161,7 +161,7 @@ std::string zero_line(const LineChart& chart) {
                      chart.x.from_px, chart.x.to_px);
 }
 
-std::vector<PicturePoint> placed(const LineChart& chart, const Stretch& stretch) {
+std::vector<PicturePoint> chart_points(const LineChart& chart, const Stretch& stretch) {
   std::vector<PicturePoint> points;
   for (const Sample& sample : stretch) points.emplace_back(chart.x(sample.theta_deg), chart.y(sample.value_mrad));
   return points;
@@ -184,7 +184,7 @@ double last_generation(const FitnessCurves& curves) {
   return last;
 }
 
-std::vector<PicturePoint> placed(const LineChart& chart, const std::vector<FitnessPoint>& points) {
+std::vector<PicturePoint> chart_points(const LineChart& chart, const std::vector<FitnessPoint>& points) {
   std::vector<PicturePoint> places;
   for (const FitnessPoint& point : points) places.emplace_back(chart.x(point.generation), chart.y(point.best));
   return places;
@@ -193,7 +193,7 @@ std::vector<PicturePoint> placed(const LineChart& chart, const std::vector<Fitne
 std::string island_marks(const LineChart& chart, std::uint64_t island, const std::vector<FitnessPoint>& points) {
   if (points.empty()) return {};
   const std::string style = fmt::format("island i{}", (island - 1) % kStyles);
-  const std::vector<PicturePoint> places = placed(chart, points);
+  const std::vector<PicturePoint> places = chart_points(chart, points);
   // The dot at the end also shows islands of a single row.
   return polyline(places, style, fmt::format("island {}", island)) +
          fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"2.6\"/>\n", style, places.back().first,
@@ -257,7 +257,7 @@ std::string correction_chart(const Tree& formula, const Interval& range_rad, con
   chart.label = label;
   std::string marks = zero_line(chart);
   for (const double jump_rad : jumps_rad) marks += jump_mark(chart, jump_rad);
-  for (const Stretch& stretch : curve) marks += polyline(placed(chart, stretch), "curve", label);
+  for (const Stretch& stretch : curve) marks += polyline(chart_points(chart, stretch), "curve", label);
   return chart_svg(chart, marks);
 }
 

@@ -20,7 +20,7 @@ struct Unit {
 };
 
 /// The unit that stands in a parameter's name, "base_x_mm" or "tool_rz_deg of A".
-Unit unit_of(const std::string& name) {
+Unit unit_in_name(const std::string& name) {
   const std::string quantity = name.substr(0, name.find(" of "));
   if (quantity.ends_with("_mm")) return {"mm", 4};
   if (quantity.ends_with("_deg")) return {"deg", 5};
@@ -44,7 +44,7 @@ bool is_undetermined(const ParameterEntry& parameter, const std::string& unit) {
 }
 
 std::string parameter_row(const ParameterEntry& parameter) {
-  const Unit unit = unit_of(parameter.name);
+  const Unit unit = unit_in_name(parameter.name);
   const auto& [name, nominal, value, error] = parameter;
   const auto moved = nominal && value ? std::optional(*value - *nominal) : std::nullopt;
   if (is_undetermined(parameter, unit.name)) {
@@ -83,7 +83,7 @@ std::string unidentified(const Report& report) {
          lines + "</ul>\n";
 }
 
-std::string named(const char* title, const char* meaning, const std::vector<std::string>& names) {
+std::string names_section(const char* title, const char* meaning, const std::vector<std::string>& names) {
   if (names.empty()) return {};
   return fmt::format("<h3>{} ({})</h3>\n<p class=\"note\">{}</p>\n", title, names.size(), meaning) + name_list(names);
 }
@@ -155,11 +155,12 @@ std::string poses_section(const Report& report) {
   const Report::Poses& poses = report.poses;
   return section(
       "poses", "Poses worth a look",
-      named("Suspected outliers", "Down-weighted in the fit, included in all errors.", poses.outliers) +
-          named("Excluded by name", "By the data set's `exclude`: no part of any figure; in brackets their own error.",
-                excluded_names(poses.excluded)) +
-          named("Near a singularity", "Joint errors are poorly defined there: weighed less in the evolution.",
-                poses.near_singular));
+      names_section("Suspected outliers", "Down-weighted in the fit, included in all errors.", poses.outliers) +
+          names_section("Excluded by name",
+                        "By the data set's `exclude`: no part of any figure; in brackets their own error.",
+                        excluded_names(poses.excluded)) +
+          names_section("Near a singularity", "Joint errors are poorly defined there: weighed less in the evolution.",
+                        poses.near_singular));
 }
 
 std::string run_section(const Report& report) {

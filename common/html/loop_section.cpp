@@ -30,7 +30,7 @@ std::string search_sentence(const Report& report) {
                      against, added == 0 ? std::string("none") : std::to_string(added), added == 1 ? "was" : "were");
 }
 
-std::string summary(const Report& report) {
+std::string loop_summary(const Report& report) {
   const std::string stopped = stop_sentence(report.stopped);
   if (stopped.empty()) return {};
   return paragraph(search_sentence(report) + escaped(stopped)) + paragraph(escaped(statistics_sentences(report))) +
@@ -84,7 +84,7 @@ bool steps_down(const RoundEntry& round) {
   return round.added() && round.validation_after_mm;
 }
 
-std::string mark(const LineChart& chart, const RoundEntry& round, double level_mm) {
+std::string round_mark(const LineChart& chart, const RoundEntry& round, double level_mm) {
   const std::string words = fmt::format("round {}, {}: {}", round.round, round.effect.name(),
                                         steps_down(round) ? fixed(level_mm, 3) + " mm" : std::string("not added"));
   return fmt::format("<circle class=\"{}\" cx=\"{:.2f}\" cy=\"{:.2f}\" r=\"3.2\"><title>{}</title></circle>\n",
@@ -124,7 +124,7 @@ std::string loop_chart(const Report& report, std::optional<double> noise_mm) {
       level = *round.validation_after_mm;
       line.emplace_back(x, chart.y(level));
     }
-    marks += mark(chart, round, level);
+    marks += round_mark(chart, round, level);
   }
   return chart_svg(chart, (noise_mm ? noise_mark(chart, *noise_mm) : "") +
                               polyline(line, "fall", "mean tool error on the validation poses") + marks);
@@ -198,8 +198,8 @@ std::string pictures(const Report& report) {
 
 std::string loop_section(const Report& report) {
   return section("loop", "What the model lacked",
-                 causes_table(report) + front_table(report) + summary(report) + rounds_table(report) + dropped(report) +
-                     pictures(report) + next_measurements_list(report) + evidence_table(report) +
+                 causes_table(report) + front_table(report) + loop_summary(report) + rounds_table(report) +
+                     dropped(report) + pictures(report) + next_measurements_list(report) + evidence_table(report) +
                      not_found_table(report) + untestable_table(report) + decoys_table(report));
 }
 

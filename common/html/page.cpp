@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/text.hpp"
 #include "html/chart.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
@@ -19,17 +20,13 @@
 namespace demecal::inline html {
 namespace {
 
-std::string counted(std::uint64_t count, const std::string& set) {
-  return fmt::format("{} {} pose{}", count, set, count == 1 ? "" : "s");
-}
-
 std::string subject(const Report& report) {
   std::string text;
   const auto add = [&text](const std::string& words) { text += (text.empty() ? "" : " · ") + words; };
   if (!report.job.empty()) add("job " + escaped(report.job));
   if (report.method == "direct" || report.method == "distal") add(report.method + " learning");
   for (const ReportPoseSet& set : kPoseSets) {
-    if (report.poses.*set.poses > 0) add(counted(report.poses.*set.poses, set.name));
+    if (report.poses.*set.poses > 0) add(counted(report.poses.*set.poses, std::string(set.name) + " pose"));
   }
   return "<p class=\"soft\">" + text + "</p>\n";
 }
@@ -50,7 +47,7 @@ std::string headline(const Report& report, const std::optional<Improvement>& jud
   const std::string outcome = before == 0.0 ? "" : ", " + percent + (after <= before ? " less" : " more");
   const std::string set = judged->set.name;
   const std::uint64_t poses = report.poses.*judged->set.poses;
-  const std::string measured = poses > 0 ? counted(poses, set) : set + " poses";
+  const std::string measured = poses > 0 ? counted(poses, set + " pose") : set + " poses";
   return fmt::format(
       "<p class=\"headline\">Mean tool error on {}: <b>{} mm → {} mm</b>{}.</p>\n"
       "<p class=\"soft\">From the stage “{}” to “{}”. {}</p>\n",
@@ -106,7 +103,7 @@ std::string banner(const Report& report) {
 }
 
 /// What the check of the data found, above all figures.
-std::string data_check(const Report& report) {
+std::string data_check_banner(const Report& report) {
   std::string lines;
   for (const FindingEntry& finding : report.data_check.findings)
     lines += "<li>" + escaped(finding.sentence) + "</li>\n";
@@ -128,10 +125,10 @@ std::string opening(const Report& report) {
   const std::optional<Improvement> judged = improvement(error_stages(report));
   return "<p class=\"soft\">Robot calibration</p>\n<h1>" +
          (report.robot.empty() ? "Unnamed robot" : escaped(report.robot)) + "</h1>\n" + subject(report) +
-         banner(report) + data_check(report) + doubt(report) + headline(report, judged) + tiles(report, judged);
+         banner(report) + data_check_banner(report) + doubt(report) + headline(report, judged) + tiles(report, judged);
 }
 
-std::string head(const Report& report) {
+std::string page_head(const Report& report) {
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
          (report.robot.empty() ? "Robot" : escaped(report.robot)) + " – calibration report</title>\n<style>" +
@@ -147,7 +144,7 @@ std::optional<double> noise_mean_mm(const Report& report) {
 }
 
 std::string report_html(const Report& report, const FitnessHistory& history) {
-  return head(report) + "<body>\n<main>\n" + opening(report) + loop_section(report) + stations_section(report) +
+  return page_head(report) + "<body>\n<main>\n" + opening(report) + loop_section(report) + stations_section(report) +
          contacts_section(report) + where_section(report) + stages_section(report) + poses_section(report) +
          folded("Corrections of the joints", joints_section(report, history)) +
          folded("Identified numbers", parameters_section(report)) + folded("The run", run_section(report)) +

@@ -31,7 +31,7 @@ std::string script_text(std::string_view text) {
   return made + '"';
 }
 
-std::string number(std::optional<double> value, int decimals) {
+std::string script_number(std::optional<double> value, int decimals) {
   if (!value || !std::isfinite(*value)) return "null";
   std::string text = fmt::format("{:.{}f}", *value, decimals);
   if (text.find('.') != std::string::npos) {
@@ -43,7 +43,7 @@ std::string number(std::optional<double> value, int decimals) {
 
 /// `"key":[...],` of what `item` says of every pose.
 template <typename Item>
-std::string list(const char* key, const Report& report, const Item& item) {
+std::string pose_array(const char* key, const Report& report, const Item& item) {
   std::string text = fmt::format("\"{}\":[", key);
   bool first = true;
   for (const PoseErrorEntry& pose : report.pose_errors) {
@@ -55,9 +55,9 @@ std::string list(const char* key, const Report& report, const Item& item) {
   return text + "],\n";
 }
 
-std::string joined(const std::vector<double>& numbers, int decimals) {
+std::string number_list(const std::vector<double>& numbers, int decimals) {
   std::string text;
-  for (const double one : numbers) text += (text.empty() ? "" : ",") + number(one, decimals);
+  for (const double one : numbers) text += (text.empty() ? "" : ",") + script_number(one, decimals);
   return text;
 }
 
@@ -67,7 +67,7 @@ std::string vectors(const char* key, const Report& report, std::vector<double> P
   const bool complete = std::ranges::all_of(
       report.pose_errors, [&](const PoseErrorEntry& pose) { return (pose.place.*values).size() == size; });
   if (!complete) return fmt::format("\"{}\":[],\n", key);
-  return list(key, report, [&](const PoseErrorEntry& pose) { return joined(pose.place.*values, decimals); });
+  return pose_array(key, report, [&](const PoseErrorEntry& pose) { return number_list(pose.place.*values, decimals); });
 }
 
 int flag_bits(const PoseErrorEntry& pose) {
@@ -85,15 +85,15 @@ std::string arm_text(const Report& report) {
   std::string joints;
   for (const ArmJointEntry& joint : report.arm->joints) {
     joints += (joints.empty() ? "" : ",") + fmt::format("{{\"type\":{},\"placement\":[{}]}}", script_text(joint.type),
-                                                        joined(joint.placement, kDecimals));
+                                                        number_list(joint.placement, kDecimals));
   }
   std::string couplings;
   for (const ArmCouplingEntry& one : report.arm->couplings)
-    couplings +=
-        fmt::format("{}[{},{},{}]", couplings.empty() ? "" : ",", one.joint, one.from, number(one.factor, kDecimals));
+    couplings += fmt::format("{}[{},{},{}]", couplings.empty() ? "" : ",", one.joint, one.from,
+                             script_number(one.factor, kDecimals));
   return fmt::format("{{\"base\":[{}],\"joints\":[{}],\"flange\":[{}],\"tool\":[{}],\"couplings\":[{}]}}",
-                     joined(report.arm->base, kDecimals), joints, joined(report.arm->flange, kDecimals),
-                     joined(report.arm->tool_mm, kDecimals), couplings);
+                     number_list(report.arm->base, kDecimals), joints, number_list(report.arm->flange, kDecimals),
+                     number_list(report.arm->tool_mm, kDecimals), couplings);
 }
 
 /// Whether the numbers are as many as a picture of the arm takes.
@@ -117,15 +117,16 @@ std::string pose_data(const Report& report) {
   const auto set_letter = [](const PoseErrorEntry& pose) { return pose.set.empty() ? 'c' : pose.set.front(); };
   std::string sets;
   for (const PoseErrorEntry& pose : report.pose_errors) sets += set_letter(pose);
-  std::string text = "{" + list("id", report, [](const PoseErrorEntry& pose) { return script_text(pose.id); });
-  text += list("target", report, [](const PoseErrorEntry& pose) { return script_text(pose.target); });
+  std::string text = "{" + pose_array("id", report, [](const PoseErrorEntry& pose) { return script_text(pose.id); });
+  text += pose_array("target", report, [](const PoseErrorEntry& pose) { return script_text(pose.target); });
   text += "\"set\":" + script_text(sets) + ",\n";
-  text += list("before", report, [](const PoseErrorEntry& pose) { return number(pose.before_mm, 4); });
-  text += list("after", report, [](const PoseErrorEntry& pose) { return number(pose.after_mm, 4); });
-  text += list("within", report, [](const PoseErrorEntry& pose) { return number(pose.interval95_mm, 4); });
-  text += list("flags", report, [](const PoseErrorEntry& pose) { return std::to_string(flag_bits(pose)); });
-  text += list("temperature", report, [](const PoseErrorEntry& p) { return number(p.place.temperature_celsius, 2); });
-  text += list("time", report, [](const PoseErrorEntry& pose) { return number(pose.place.time_s, 1); });
+  text += pose_array("before", report, [](const PoseErrorEntry& pose) { return script_number(pose.before_mm, 4); });
+  text += pose_array("after", report, [](const PoseErrorEntry& pose) { return script_number(pose.after_mm, 4); });
+  text += pose_array("within", report, [](const PoseErrorEntry& pose) { return script_number(pose.interval95_mm, 4); });
+  text += pose_array("flags", report, [](const PoseErrorEntry& pose) { return std::to_string(flag_bits(pose)); });
+  text += pose_array("temperature", report,
+                     [](const PoseErrorEntry& p) { return script_number(p.place.temperature_celsius, 2); });
+  text += pose_array("time", report, [](const PoseErrorEntry& pose) { return script_number(pose.place.time_s, 1); });
   text += vectors("q", report, &PosePlace::joints, joints, 3);
   text += vectors("p", report, &PosePlace::position_mm, 3, 2);
   text += vectors("eb", report, &PosePlace::before_error_mm, 3, 4);

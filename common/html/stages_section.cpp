@@ -28,7 +28,7 @@ Cells changes(const SetErrors& before, const SetErrors& after) {
           change(before.p95_mm, after.p95_mm), change(before.max_mm, after.max_mm)};
 }
 
-std::string head(const Report& report, const Stages& stages) {
+std::string stages_head(const Report& report, const Stages& stages) {
   std::string sets, figures;
   for (const ReportPoseSet& set : measured_sets(stages)) {
     const std::uint64_t count = report.poses.*set.poses;
@@ -64,7 +64,7 @@ std::string stage_table(const Report& report, const Stages& stages) {
     rows += stage_row(stages, "change since base fitted", " class=\"total\"",
                       [&](const ReportPoseSet& set) { return changes(registered->on(set), last.on(set)); });
   }
-  return "<div class=\"panel\"><table id=\"errors\">\n" + head(report, stages) + "<tbody>\n" + rows +
+  return "<div class=\"panel\"><table id=\"errors\">\n" + stages_head(report, stages) + "<tbody>\n" + rows +
          "</tbody></table></div>\n";
 }
 

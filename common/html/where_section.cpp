@@ -15,8 +15,6 @@
 namespace demecal::inline html {
 namespace {
 
-using Poses = std::vector<PoseErrorEntry>;
-
 /// Rows that stand in the page for readers without scripts: those with the largest errors.
 constexpr std::size_t kStaticRows = 200;
 
@@ -200,7 +198,7 @@ std::string spreads(const Report& report) {
                      rows, report.contacts.size());
 }
 
-std::string lengths(const Report& report) {
+std::string lengths_table(const Report& report) {
   if (report.length_errors.empty()) return {};
   std::string rows;
   for (const LengthErrorEntry& one : report.length_errors) {
@@ -245,7 +243,7 @@ std::string contacts_section(const Report& report) {
   std::string notes;
   for (const std::string& note : report.contact_notes) notes += "<li>" + escaped(note) + "</li>\n";
   return section("contacts-touched", "Contacts",
-                 "<ul class=\"plain\">\n" + notes + "</ul>\n" + spreads(report) + lengths(report));
+                 "<ul class=\"plain\">\n" + notes + "</ul>\n" + spreads(report) + lengths_table(report));
 }
 
 }  // namespace demecal::inline html

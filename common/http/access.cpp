@@ -40,7 +40,7 @@ struct HostAndPort {
   bool bracketed = false;
 };
 
-HostAndPort divide(const std::string& text) {
+HostAndPort host_and_port(const std::string& text) {
   if (text.starts_with('[')) {
     const std::size_t end = text.find(']');
     if (end == std::string::npos) return {text, "", false};
@@ -64,7 +64,7 @@ std::string lower(std::string text) {
 
 Endpoint parse_endpoint(const std::string& text, const std::string& option) {
   Endpoint endpoint;
-  HostAndPort parts = divide(text);
+  HostAndPort parts = host_and_port(text);
   if (is_port(text)) parts = {endpoint.address, text, false};
   if (parts.host == "localhost") parts.host = endpoint.address;
   const bool is_numeric = parts.bracketed ? is_ipv6(parts.host) : is_ipv4(parts.host);
@@ -88,7 +88,7 @@ std::string origin_of(const Endpoint& endpoint) {
 }
 
 bool is_trusted_host(const std::string& host, const Endpoint& endpoint, const std::string& own_name) {
-  const HostAndPort parts = divide(host);
+  const HostAndPort parts = host_and_port(host);
   if (!parts.port.empty() && !is_port(parts.port)) return false;
   const std::string name = lower(parts.host);
   if (name == "localhost" && !parts.bracketed) return true;

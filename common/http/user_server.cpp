@@ -34,7 +34,7 @@ struct Refused {
   std::string why;
 };
 
-std::vector<std::string> parts_of(std::string_view path) {
+std::vector<std::string> path_parts(std::string_view path) {
   std::vector<std::string> parts;
   while (true) {
     const std::size_t slash = path.find('/');
@@ -223,7 +223,7 @@ void UserServer::Implementation::answer(const httplib::Request& request, std::st
   ServiceRequest asked;
   asked.user = user_of(request).value_or("");
   asked.changes = request.method == "POST";
-  asked.path = parts_of(std::string_view(request.path).substr(kApi.size()));
+  asked.path = path_parts(std::string_view(request.path).substr(kApi.size()));
   for (const auto& [name, value] : request.params) asked.parameters[name] = value;
   asked.body = std::move(body);
   const ServiceAnswer answered = service_(asked);

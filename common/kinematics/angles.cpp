@@ -14,7 +14,7 @@ namespace demecal::inline kinematics {
 namespace {
 
 /// Controllers round what they report: data this little beyond +-pi still count as quadrant data.
-constexpr double kRounding = 1e-6;
+constexpr double kAngleRounding = 1e-6;
 
 }  // namespace
 
@@ -25,8 +25,8 @@ double wrap_near(double angle_rad, double centre_rad) {
 AngleBranch choose_branch(std::span<const double> angles_rad) {
   std::vector<double> sorted(angles_rad.begin(), angles_rad.end());
   std::sort(sorted.begin(), sorted.end());
-  if (sorted.empty() || sorted.front() < -std::numbers::pi - kRounding ||
-      sorted.back() > std::numbers::pi + kRounding) {
+  if (sorted.empty() || sorted.front() < -std::numbers::pi - kAngleRounding ||
+      sorted.back() > std::numbers::pi + kAngleRounding) {
     return {};
   }
   double widest = kTurn_rad - (sorted.back() - sorted.front());  // the arc through +-pi
@@ -45,7 +45,7 @@ AngleBranch choose_branch(std::span<const double> angles_rad, double lower_rad, 
   const double travel = upper_rad - lower_rad;
   if (travel <= 0.0 || travel > kTurn_rad) return choose_branch(angles_rad);
   const bool quadrants_suffice =
-      lower_rad >= -std::numbers::pi - kRounding && upper_rad <= std::numbers::pi + kRounding;
+      lower_rad >= -std::numbers::pi - kAngleRounding && upper_rad <= std::numbers::pi + kAngleRounding;
   return quadrants_suffice ? AngleBranch{} : AngleBranch{true, (lower_rad + upper_rad) / 2};
 }
 

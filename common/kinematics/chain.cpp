@@ -117,9 +117,9 @@ void advance(Eigen::Isometry3d& frame, const Elementary& transform, double value
 
 namespace {
 
-constexpr double kAlike = 1e-9;  ///< m, rad
+constexpr double kSameGeometry = 1e-9;  ///< m, rad
 
-std::string number(double value) {
+std::string ten_digits(double value) {
   std::ostringstream text;
   text.precision(10);
   text << value;
@@ -132,9 +132,9 @@ std::string of_joints(const Joint& one, const Joint& other) {
   for (int i = 0; i < kLinkParameters; ++i) {
     const auto which = static_cast<LinkParameter>(i);
     const double here = one.parameter(which), there = other.parameter(which);
-    if (std::abs(here - there) < kAlike) continue;
+    if (std::abs(here - there) < kSameGeometry) continue;
     const bool length = which == LinkParameter::d || which == LinkParameter::a;
-    const auto shown = [&](double value) { return number(length ? millimetres(value) : degrees(value)); };
+    const auto shown = [&](double value) { return ten_digits(length ? millimetres(value) : degrees(value)); };
     const char* const unit = length ? " mm" : " deg";
     return std::string("has ") + kNames[static_cast<std::size_t>(i)] + ' ' + shown(there) + unit + ", not " +
            shown(here) + unit;
@@ -143,7 +143,7 @@ std::string of_joints(const Joint& one, const Joint& other) {
 }
 
 bool same_place(const Eigen::Isometry3d& one, const Eigen::Isometry3d& other) {
-  return (one.matrix() - other.matrix()).cwiseAbs().maxCoeff() < kAlike;
+  return (one.matrix() - other.matrix()).cwiseAbs().maxCoeff() < kSameGeometry;
 }
 
 }  // namespace

@@ -30,7 +30,7 @@ Eigen::Isometry3d motion(const DrawnJoint& joint, double value) {
 }
 
 /// The shortest turn that takes z to the axis; half a turn about x where they are opposite.
-Eigen::Isometry3d aligned(const Eigen::Vector3d& axis) {
+Eigen::Isometry3d turn_to_axis(const Eigen::Vector3d& axis) {
   if (axis.head<2>().norm() < kDrawnRounding)
     return axis.z() > 0.0 ? Eigen::Isometry3d::Identity() : turned(std::numbers::pi, Eigen::Vector3d::UnitX());
   return Eigen::Isometry3d(Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), axis));
@@ -123,11 +123,11 @@ EquivalentChain chain_by_axes(const DrawnArm& arm) {
     rows.push_back(
         {.type = joint.row.type, .lower = joint.row.lower, .upper = joint.row.upper, .endless = joint.row.endless});
   }
-  result.chain.base = drawn.front() * aligned(axes.front());
+  result.chain.base = drawn.front() * turn_to_axis(axes.front());
   RowMaker maker(result.chain.base);
   for (std::size_t i = 1; i < rows.size(); ++i)
     maker.lead_to(rows[i - 1], rows[i], drawn[i].translation(), drawn[i].linear() * axes[i]);
-  maker.lead_to_frame(rows.back(), drawn.back() * aligned(axes.back()));
+  maker.lead_to_frame(rows.back(), drawn.back() * turn_to_axis(axes.back()));
   for (std::size_t i = 0; i < rows.size(); ++i) result.drawn_links.push_back(maker.links[i].inverse() * drawn[i]);
   result.chain.flange = result.drawn_links.back() * pose_of(arm.flange);
   return result;

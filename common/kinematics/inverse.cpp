@@ -35,7 +35,7 @@ NewtonStep newton_step(const Jacobian& jacobian, const PoseError& error, const I
   return {svd.v * gains.asDiagonal() * svd.u.transpose() * scaled_error, smallest};
 }
 
-bool within(const PoseError& error, const InverseOptions& options) {
+bool within_tolerance(const PoseError& error, const InverseOptions& options) {
   return error.head<3>().norm() <= options.tolerance_m && error.tail<3>().norm() <= options.tolerance_rad;
 }
 
@@ -96,7 +96,7 @@ struct DampedProblem {
   double cost;
 };
 
-double cost_of(const DampedProblem& problem, const PoseAndJacobian& reached, const JointVector& change) {
+double damped_cost(const DampedProblem& problem, const PoseAndJacobian& reached, const JointVector& change) {
   const PoseError error = row_scales(problem.options).cwiseProduct(pose_error(reached.pose, problem.target));
   return error.squaredNorm() + problem.options.damping * problem.options.damping * change.squaredNorm();
 }
@@ -116,7 +116,7 @@ bool damped_advance(const JointVector& step, DampedProblem& problem) {
   return backtrack([&](double fraction) {
     const JointVector change = problem.change + fraction * step;
     PoseAndJacobian ahead = problem.model(problem.start + change);
-    const double cost = cost_of(problem, ahead, change);
+    const double cost = damped_cost(problem, ahead, change);
     if (!(cost < problem.cost)) return false;
     problem.change = change;
     problem.reached = std::move(ahead);
@@ -138,22 +138,23 @@ InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& targ
   Iterate iterate = iterate_at(model, target, start);
   NewtonStep step = newton_step(iterate.reached.jacobian, iterate.error, options);
   const double smallest_singular = step.smallest_singular;
-  for (int iteration = 0; iteration < options.max_iterations && !within(iterate.error, options); ++iteration) {
+  for (int iteration = 0; iteration < options.max_iterations && !within_tolerance(iterate.error, options);
+       ++iteration) {
     if (!newton_advance(step.dq, model, target, options, iterate)) break;
     step = newton_step(iterate.reached.jacobian, iterate.error, options);
   }
   const bool singular = smallest_singular < options.singular_below;
-  const InverseStatus status = within(iterate.error, options)     ? InverseStatus::converged
-                               : !iterate.error.allFinite()       ? InverseStatus::diverged
-                               : singular || iterate.q.size() < 6 ? InverseStatus::damped
-                                                                  : InverseStatus::diverged;
+  const InverseStatus status = within_tolerance(iterate.error, options) ? InverseStatus::converged
+                               : !iterate.error.allFinite()             ? InverseStatus::diverged
+                               : singular || iterate.q.size() < 6       ? InverseStatus::damped
+                                                                        : InverseStatus::diverged;
   return {iterate.q, status, smallest_singular, iterate.error.head<3>().norm(), iterate.error.tail<3>().norm()};
 }
 
 JointVector damped_least_squares(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
                                  const DampingOptions& options) {
   DampedProblem problem{model, target, start, options, JointVector::Zero(start.size()), model(start), 0.0};
-  problem.cost = cost_of(problem, problem.reached, problem.change);
+  problem.cost = damped_cost(problem, problem.reached, problem.change);
   for (int iteration = 0; iteration < options.max_iterations; ++iteration) {
     const JointVector step = gauss_newton_step(problem);
     if (!step.allFinite() || step.norm() < kSmallestStep || !damped_advance(step, problem)) break;

@@ -24,7 +24,7 @@ namespace {
 
 constexpr int kDeepestAggregate = 20;
 constexpr std::array<std::string_view, 6> kPoseParts{"x", "y", "z", "a", "b", "c"};
-constexpr std::array<std::string_view, 6> kAxes{"a1", "a2", "a3", "a4", "a5", "a6"};
+constexpr std::array<std::string_view, 6> kAxisComponents{"a1", "a2", "a3", "a4", "a5", "a6"};
 
 /// What the words before an aggregate, or its own type, say of it.
 struct Context {
@@ -161,9 +161,9 @@ class KrlReader {
     if (context.relative) return;
     Target target{.name = name, .place = text_.place(list.begin)};
     const Numbers numbers = context.declared() ? Numbers::required : Numbers::or_expressions;
-    const std::vector<BracketItem> axes = values(components, kAxes), parts = values(components, kPoseParts);
+    const std::vector<BracketItem> axes = values(components, kAxisComponents), parts = values(components, kPoseParts);
     const bool stated = find(components, "s") != nullptr || find(components, "t") != nullptr;
-    if (axes.size() == kAxes.size()) {
+    if (axes.size() == kAxisComponents.size()) {
       axis_target(target, axes, numbers);
     } else if (!axes.empty() && (context.axis || context.motion)) {
       skip_target(program_, target, "it names only some of A1 to A6");

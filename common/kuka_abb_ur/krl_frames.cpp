@@ -40,7 +40,7 @@ std::map<std::string, std::string> parts_of(const ProgramText& text, const Brack
   return parts;
 }
 
-std::optional<double> number_of(const std::map<std::string, std::string>& parts, std::string_view name) {
+std::optional<double> component_number(const std::map<std::string, std::string>& parts, std::string_view name) {
   const auto part = parts.find(std::string(name));
   if (part == parts.end()) return std::nullopt;
   const auto cell = cell_at(part->second, 0, part->second.size(), {});
@@ -52,7 +52,7 @@ std::optional<Eigen::Isometry3d> frame_of(const ProgramText& text, const Bracket
   const std::map<std::string, std::string> parts = parts_of(text, list);
   std::array<double, 6> values{};
   for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto value = number_of(parts, kFrameParts[i]);
+    const auto value = component_number(parts, kFrameParts[i]);
     if (!value) return std::nullopt;
     values[i] = *value;
   }
@@ -131,8 +131,8 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
     if (name.empty() || text_.next(sign) != '=' || text_.next(sign + 1) != '{') return;
     const auto parts = parts_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
     const auto held = parts.find("ipo_frame");
-    const FrameNumbers numbers{frame_number(number_of(parts, "tool_no").value_or(0.0)),
-                               frame_number(number_of(parts, "base_no").value_or(0.0)),
+    const FrameNumbers numbers{frame_number(component_number(parts, "tool_no").value_or(0.0)),
+                               frame_number(component_number(parts, "base_no").value_or(0.0)),
                                held == parts.end() || held->second != "#tcp"};
     const auto [before, fresh] = data_of_.try_emplace(name, numbers);
     if (!fresh && !(before->second == numbers)) before->second.unknown = name + " is given more than once";

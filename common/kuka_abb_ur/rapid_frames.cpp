@@ -33,7 +33,7 @@ bool is_word(const ProgramText& text, const BracketItem& item, std::string_view 
   return lower_case(text.code().substr(item.begin, item.size)) == word;
 }
 
-KnownFrame tool_of(const ProgramText& text, const BracketItem& list, const std::string& name) {
+KnownFrame declared_tool(const ProgramText& text, const BracketItem& list, const std::string& name) {
   if (list.items.size() != 3) return KnownFrame::computed("tool " + name);
   if (!is_word(text, list.items[0], "true")) {
     return {name, Eigen::Isometry3d::Identity(), "tool " + name + " stands beside the robot"};
@@ -93,7 +93,7 @@ void RapidFrames::read_declaration(const std::string& type, std::size_t at) {
   if (value >= code.size() || code[value] != '[')
     return declare(data, key, KnownFrame::computed((tool ? "tool " : "work object ") + name));
   const BracketItem list = read_list(text_, value, '[');
-  declare(data, key, tool ? tool_of(text_, list, name) : object_of(text_, list, name));
+  declare(data, key, tool ? declared_tool(text_, list, name) : object_of(text_, list, name));
 }
 
 /// Data that statements change are computed, and so are those that are handed to a procedure that may change them.

@@ -38,7 +38,7 @@ bool is_of_the_language(const std::string& word) {
 }
 
 /// Statements behind which the arm stands where no target says.
-bool moves_untold(const std::string& word) {
+bool is_untold_motion(const std::string& word) {
   constexpr std::array<std::string_view, 7> kWords{
       "speedj", "speedl", "freedrive_mode", "force_mode", "teach_mode", "screw_driving", "run"};
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
@@ -62,7 +62,7 @@ void UrScriptWay::read_word(std::size_t begin, std::size_t end) {
   const std::string word(text_.code().substr(begin, end - begin));
   if (word == "track_conveyor_linear" || word == "track_conveyor_circular" || word == "path_offset_enable")
     displaces_ = word;
-  if (moves_untold(word)) untold_.push_back(begin);
+  if (is_untold_motion(word)) untold_.push_back(begin);
   if (read_control(word, begin, end) || text_.next(end) != '(') return;
   const std::string before = word_before(begin);
   if (before == "def" || before == "thread" || before == "sec") return;

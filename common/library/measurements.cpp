@@ -98,7 +98,7 @@ void share_payloads(std::vector<MeasuredPose>& poses) {
 }
 
 /// By which models name the measurements that they were made from.
-std::string hash_of(const std::vector<MeasuredPose>& poses) {
+std::string poses_sha256(const std::vector<MeasuredPose>& poses) {
   std::string text;
   for (const MeasuredPose& pose : poses) {
     for (const double joint : pose.joints) text += number_text(joint) + ' ';
@@ -116,7 +116,7 @@ DataSet to_data_set(const Robot& robot, const std::vector<PoseMeasurement>& meas
   for (const PoseMeasurement& one : measured) data.poses.push_back(to_pose(one, robot.chain, data.poses.size() + 1));
   if (data.poses.empty()) throw InputError({data.file, 0}, "", "there is no pose");
   share_payloads(data.poses);
-  data.sha256 = hash_of(data.poses);
+  data.sha256 = poses_sha256(data.poses);
   if (std::ranges::none_of(measured, [](const PoseMeasurement& one) { return one.use.has_value(); })) {
     RandomStream random{1};
     split_by_pose(data.poses, {}, [&random](std::size_t n) { return random.index(n); });

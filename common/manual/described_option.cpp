@@ -44,7 +44,7 @@ void describe_value(const std::string& type, DescribedOption& option) {
   }
 }
 
-DescribedOption describe(const CLI::Option& option) {
+DescribedOption describe_option(const CLI::Option& option) {
   DescribedOption described;
   described.positional = !option.nonpositional();
   described.required = option.get_required();
@@ -70,7 +70,7 @@ DescribedOption describe(const CLI::Option& option) {
 std::vector<DescribedOption> described_options(const CLI::App& command) {
   std::vector<DescribedOption> options;
   for (const CLI::Option* option : command.get_options()) {
-    if (!option->get_group().empty()) options.push_back(describe(*option));
+    if (!option->get_group().empty()) options.push_back(describe_option(*option));
   }
   std::ranges::stable_partition(options, &DescribedOption::positional);
   return options;

@@ -32,7 +32,7 @@ std::string without_name(const std::string& description, const std::string& name
   return description.starts_with(beginning) ? description.substr(beginning.size()) : description;
 }
 
-std::string joined(const std::vector<std::string>& words, const std::string& between) {
+std::string word_list(const std::vector<std::string>& words, const std::string& between) {
   std::string text;
   for (const std::string& word : words) text += (text.empty() ? "" : between) + word;
   return text;
@@ -55,15 +55,15 @@ std::string in_synopsis(const DescribedOption& option) {
 /// What there is to say of a value beside its description, as further sentences.
 std::string value_facts(const DescribedOption& option) {
   std::string facts;
-  if (!option.choices.empty()) facts += "; one of " + joined(option.choices, ", ");
+  if (!option.choices.empty()) facts += "; one of " + word_list(option.choices, ", ");
   if (!option.rule.empty()) facts += "; " + option.rule;
   if (!option.standard.empty()) facts += "; default " + option.standard;
   if (!option.environment.empty()) facts += "; the environment variable " + option.environment + " sets the default";
-  if (!option.excluded.empty()) facts += "; not with " + joined(option.excluded, ", ");
+  if (!option.excluded.empty()) facts += "; not with " + word_list(option.excluded, ", ");
   return facts;
 }
 
-std::string entry(const DescribedOption& option) {
+std::string option_entry(const DescribedOption& option) {
   std::string names;
   for (const std::string& name : option.names) {
     names += (names.empty() ? "" : ", ") + std::string(option.positional ? "\\fI" : "\\fB") +
@@ -97,7 +97,7 @@ std::string inner_commands(const CLI::App& outer, const std::string& words) {
   for (const CLI::App* command : outer.get_subcommands({})) {
     text += ".SS " + roff(words + " " + command->get_name()) + "\n" + roff(command->get_description()) + ".\n.PP\n" +
             usage(*command, words + " " + command->get_name());
-    for (const DescribedOption& option : described_options(*command)) text += entry(option);
+    for (const DescribedOption& option : described_options(*command)) text += option_entry(option);
   }
   return text.empty() ? text : ".SH COMMANDS\n" + text;
 }
@@ -132,7 +132,7 @@ std::string manual_page(const CLI::App& program, const std::string& command, con
   page += synopsis(*described, words);
   page += command.empty() ? commands_section(program) : inner_commands(*described, words);
   page += ".SH OPTIONS\n";
-  for (const DescribedOption& option : described_options(*described)) page += entry(option);
+  for (const DescribedOption& option : described_options(*described)) page += option_entry(option);
   page += ".SH EXIT STATUS\n" + roff(exit_status) + "\n.SH SEE ALSO\n";
   if (command.empty()) {
     page += roff(program.get_name() == "demecal" ? "demecal-worker" : "demecal") + "(1)\n";

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array kStages{"preparing", "evolving", "closing", "finished", "interrupted", "failed"};
 constexpr std::array kVerdicts{"added", "rejected", "none"};
 constexpr std::array kBreeds{"formulas", "sets"};
-constexpr std::array kStates{"running", "finished", "cancelled"};
+constexpr std::array kRunStates{"running", "finished", "cancelled"};
 
 }  // namespace
 
@@ -50,7 +50,7 @@ void fields(auto& visit, Like<Progress> auto& m) {
 }
 
 void fields(auto& visit, Like<Control> auto& m) {
-  visit("run", AsText{m.run}, "state", OneOf{m.state, kStates}, "note", Shown{m.note});
+  visit("run", AsText{m.run}, "state", OneOf{m.state, kRunStates}, "note", Shown{m.note});
 }
 
 void fields(auto& visit, Like<WorkerStatus> auto& m) {
@@ -91,7 +91,7 @@ void round_fields(Visit& visit, Like<LoopNews> auto& m) {
 namespace {
 
 /// The word of a kind of message, and how its members stand after it.
-struct Kind {
+struct EventKind {
   const char* word;
   bool (*is_its)(const Message&);
   void (*write)(JsonWriter&, const Message&);
@@ -100,7 +100,7 @@ struct Kind {
 };
 
 template <class Plain>
-constexpr Kind kind_of(const char* word) {
+constexpr EventKind plain_kind(const char* word) {
   return {word, [](const Message& message) { return std::holds_alternative<Plain>(message); },
           [](JsonWriter& write, const Message& message) { fields(write, std::get<Plain>(message)); },
           [](JsonReader& read) -> Message {
@@ -114,21 +114,21 @@ constexpr Kind kind_of(const char* word) {
           }};
 }
 
-bool is_round(const Message& message) {
+bool is_loop_round(const Message& message) {
   const LoopNews* const news = std::get_if<LoopNews>(&message);
   return news != nullptr && news->round > 0;
 }
 
 bool is_stage(const Message& message) {
-  return std::holds_alternative<LoopNews>(message) && !is_round(message);
+  return std::holds_alternative<LoopNews>(message) && !is_loop_round(message);
 }
 
-constexpr Kind kKinds[] = {
-    kind_of<CalibrationData>("run"),
-    kind_of<Progress>("progress"),
-    kind_of<Control>("run_state"),
-    kind_of<WorkerStatus>("worker"),
-    kind_of<WorkerLost>("worker_lost"),
+constexpr EventKind kEventKinds[] = {
+    plain_kind<CalibrationData>("run"),
+    plain_kind<Progress>("progress"),
+    plain_kind<Control>("run_state"),
+    plain_kind<WorkerStatus>("worker"),
+    plain_kind<WorkerLost>("worker_lost"),
     {"stage", is_stage,
      [](JsonWriter& write, const Message& message) { stage_fields(write, std::get<LoopNews>(message)); },
      [](JsonReader& read) -> Message {
@@ -140,7 +140,7 @@ constexpr Kind kKinds[] = {
        LoopNews news;
        stage_fields(describe, news);
      }},
-    {"round", is_round,
+    {"round", is_loop_round,
      [](JsonWriter& write, const Message& message) { round_fields(write, std::get<LoopNews>(message)); },
      [](JsonReader& read) -> Message {
        LoopNews news;
@@ -151,7 +151,7 @@ constexpr Kind kKinds[] = {
        LoopNews news;
        round_fields(describe, news);
      }},
-    kind_of<CalibrationLost>("calibration_lost")};
+    plain_kind<CalibrationLost>("calibration_lost")};
 
 std::optional<Event> read(const JsonValue& json) {
   const std::string word = json["event"].text();
@@ -159,7 +159,7 @@ std::optional<Event> read(const JsonValue& json) {
   if (word == "begin" && json["demecal_events"].count() != std::uint64_t{kEventsVersion}) {
     json["demecal_events"].refuse("must be " + std::to_string(kEventsVersion));
   }
-  for (const Kind& kind : kKinds) {
+  for (const EventKind& kind : kEventKinds) {
     if (word != kind.word) continue;
     JsonReader reader(json);
     return Event{json["t_s"].number().value_or(0.0), kind.read(reader)};
@@ -178,7 +178,7 @@ std::string to_string(LoopNews::Verdict verdict) {
 }
 
 std::string to_string(Control::State state) {
-  return kStates.at(static_cast<std::size_t>(state));
+  return kRunStates.at(static_cast<std::size_t>(state));
 }
 
 std::string first_event_line() {
@@ -192,7 +192,7 @@ std::string one_line(const nlohmann::ordered_json& json) {
 }
 
 nlohmann::ordered_json event_json(const Message& message, double time_s) {
-  for (const Kind& kind : kKinds) {
+  for (const EventKind& kind : kEventKinds) {
     if (!kind.is_its(message)) continue;
     nlohmann::ordered_json json{{"event", kind.word}, {"t_s", time_s}};
     JsonWriter write(json);
@@ -204,7 +204,7 @@ nlohmann::ordered_json event_json(const Message& message, double time_s) {
 
 std::vector<EventSchema> event_schemas() {
   std::vector<EventSchema> schemas;
-  for (const Kind& kind : kKinds) {
+  for (const EventKind& kind : kEventKinds) {
     SchemaWriter describe;
     describe("event", std::string(), "t_s", 0.0);
     kind.describe(describe);

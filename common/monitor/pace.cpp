@@ -66,7 +66,7 @@ std::map<std::string, double> reported_per_s(const Watched& watched, const Watch
   return reported;
 }
 
-double sum_of(const std::map<std::string, double>& reported) {
+double total_per_s(const std::map<std::string, double>& reported) {
   double sum = 0.0;
   for (const auto& [name, speed] : reported) sum += speed;
   return sum;
@@ -83,14 +83,14 @@ std::optional<double> seen_per_s(const WatchedRun& run, double now_s) {
 
 double evaluations_per_s(const Watched& watched, const WatchedRun& run, double now_s) {
   if (run.state != Control::State::running || share_done(run) >= 1.0) return 0.0;
-  return seen_per_s(run, now_s).value_or(sum_of(reported_per_s(watched, run)));
+  return seen_per_s(run, now_s).value_or(total_per_s(reported_per_s(watched, run)));
 }
 
 double evaluations_per_s(const Watched& watched, const WatchedRun& run, const WatchedWorker& worker, double now_s) {
   const auto reported = reported_per_s(watched, run);
   const auto own = reported.find(worker.status.worker);
   if (own == reported.end() || own->second <= 0.0) return 0.0;
-  return evaluations_per_s(watched, run, now_s) * own->second / sum_of(reported);
+  return evaluations_per_s(watched, run, now_s) * own->second / total_per_s(reported);
 }
 
 double share_done(const WatchedRun& run) {

@@ -12,7 +12,7 @@ namespace {
 constexpr double kFigures_s = 1.0;
 constexpr std::size_t kMostPaced = 20000;
 
-std::string key_of(const Progress& progress) {
+std::string island_key(const Progress& progress) {
   return "progress " + std::to_string(progress.run) + ' ' + std::to_string(progress.island.joint) + ' ' +
          std::to_string(progress.island.deme);
 }
@@ -76,7 +76,7 @@ void PacedEvents::emit(Paced& paced, double now_s, std::vector<PacedLine>& lines
   if (!paced.is_new) return;
   paced.is_new = false;
   paced.told_s = now_s;
-  lines.push_back({event_line(paced.latest, now_s), key_of(paced.latest)});
+  lines.push_back({event_line(paced.latest, now_s), island_key(paced.latest)});
 }
 
 void PacedEvents::emit_figures(double now_s, std::vector<PacedLine>& lines) {

@@ -39,7 +39,7 @@ Json calibration_json(const WatchedCalibration& calibration) {
   return json;
 }
 
-Json run_json(const Watched& watched, const WatchedRun& run, double now_s) {
+Json watched_run_json(const Watched& watched, const WatchedRun& run, double now_s) {
   Json json = members_of(run.data);
   json["state"] = to_string(run.state);
   json.update(run_figures(watched, run, now_s));
@@ -72,7 +72,7 @@ std::string state_json(const Watched& watched, double now_s, const std::string& 
   const WatchedRun* run = watched.run();
   Json json{{"demecal_state", kStateVersion}, {"t_s", now_s}, {"place", place}};
   json["calibration"] = calibration == nullptr ? Json() : calibration_json(*calibration);
-  json["run"] = run == nullptr ? Json() : run_json(watched, *run, now_s);
+  json["run"] = run == nullptr ? Json() : watched_run_json(watched, *run, now_s);
   json["workers"] = Json::array();
   for (const WatchedWorker* worker : watched.workers()) json["workers"].push_back(worker_json(watched, *worker, now_s));
   json["other_calibrations"] = watched.other_calibrations();

@@ -27,12 +27,12 @@ bool is_believable(const CalibrationData& data) {
          islands.demes_per_joint <= kMostDemes && data.parameters.number_generations > 0;
 }
 
-bool holds(const CalibrationData& data, IslandKey island) {
+bool has_island(const CalibrationData& data, IslandKey island) {
   const auto& joints = data.archipelago.joints;
   return std::ranges::binary_search(joints, island.joint) && island.deme < data.archipelago.demes_per_joint;
 }
 
-void mark(WatchedRun& run, double now_s) {
+void mark_evaluations(WatchedRun& run, double now_s) {
   constexpr double kAtOnce_s = 0.5, kApart_s = 1.0;
   constexpr std::size_t kMostMarks = 11;
   if (run.marks.empty() ? now_s - run.seen_s < kAtOnce_s : now_s - run.marks.back().time_s < kApart_s) return;
@@ -80,7 +80,7 @@ void Watched::note(const CalibrationData& data, double now_s) {
   WatchedRun& run = run_of(data.run, now_s);
   if (run.has_data()) return;
   run.data = {data.run, data.job, data.seed, data.parameters, data.archipelago, {}, data.breeds, {}};
-  std::erase_if(run.islands, [&](const auto& island) { return !holds(data, island.first); });
+  std::erase_if(run.islands, [&](const auto& island) { return !has_island(data, island.first); });
   run.evaluations = 0;
   for (const auto& [key, island] : run.islands) run.evaluations += island.evaluations;
 }
@@ -88,12 +88,12 @@ void Watched::note(const CalibrationData& data, double now_s) {
 void Watched::note(const Progress& progress, double now_s) {
   if (progress.run == 0 || progress.island.joint >= kMostJoints || progress.island.deme >= kMostDemes) return;
   WatchedRun& run = run_of(progress.run, now_s);
-  if (run.has_data() && !holds(run.data, progress.island)) return;
+  if (run.has_data() && !has_island(run.data, progress.island)) return;
   Progress& last = run.islands[progress.island];
   if (progress.epoch < last.epoch) return;
   run.evaluations += progress.evaluations - last.evaluations;
   last = progress;
-  mark(run, now_s);
+  mark_evaluations(run, now_s);
 }
 
 void Watched::note(const Control& control, double) {

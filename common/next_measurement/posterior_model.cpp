@@ -65,7 +65,7 @@ Spectrum spectrum(const Eigen::MatrixXd& covariance) {
   return {std::move(scale), eigen.vectors, std::move(values)};
 }
 
-Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& covariance) {
+Eigen::MatrixXd scaled_pseudo_inverse(const Eigen::MatrixXd& covariance) {
   const Spectrum decomposed = spectrum(covariance);
   Eigen::VectorXd inverse = decomposed.values, scale = decomposed.scale;
   for (double& value : inverse) value = value > 0 ? 1 / value : 0.0;
@@ -75,12 +75,12 @@ Eigen::MatrixXd pseudo_inverse(const Eigen::MatrixXd& covariance) {
 }
 
 /// The covariance of `kept` when the numbers `out` are held.
-Eigen::MatrixXd held(const Eigen::MatrixXd& covariance, const std::vector<Eigen::Index>& kept,
-                     const std::vector<Eigen::Index>& out) {
+Eigen::MatrixXd conditional_covariance(const Eigen::MatrixXd& covariance, const std::vector<Eigen::Index>& kept,
+                                       const std::vector<Eigen::Index>& out) {
   const Eigen::MatrixXd whole = covariance(kept, kept);
   if (out.empty()) return whole;
   const Eigen::MatrixXd across = covariance(kept, out);
-  return whole - across * pseudo_inverse(covariance(out, out)) * across.transpose();
+  return whole - across * scaled_pseudo_inverse(covariance(out, out)) * across.transpose();
 }
 
 /// F (n x r) with F F^T the covariance.
@@ -167,7 +167,7 @@ PosteriorModel::PosteriorModel(const DiagnosisProblem& problem, DiagnosedModel m
         });
     (apart ? out : kept_).push_back(i);
   }
-  to_units_ = root(held(linearization_.covariance, kept_, out)) / std::sqrt(weight_);
+  to_units_ = root(conditional_covariance(linearization_.covariance, kept_, out)) / std::sqrt(weight_);
 }
 
 DataSet PosteriorModel::predicted(std::vector<MeasuredPose> stops) const {

@@ -32,7 +32,7 @@ constexpr Eigen::Index kMostColumns = 150;
 /// How large a coefficient may be beforehand: so that its rows are of this size, in units of their scatter.
 constexpr double kBelievedRows = 10.0;
 
-bool holds(const std::vector<Effect>& effects, const Effect& one) {
+bool has_same_law(const std::vector<Effect>& effects, const Effect& one) {
   return std::ranges::any_of(effects, [&](const Effect& effect) { return effect.same_law_as(one); });
 }
 
@@ -42,7 +42,7 @@ std::vector<Effect> effects_asked(const std::vector<AmbiguousEffect>& ambiguous,
   Eigen::Index columns = 0;
   const auto ask = [&](const Effect& effect) {
     const auto count = static_cast<Eigen::Index>(law_of(effect).coefficients(effect, robot).size());
-    if (holds(asked, effect) || columns + count > kMostColumns) return;
+    if (has_same_law(asked, effect) || columns + count > kMostColumns) return;
     asked.push_back(effect);
     columns += count;
   };

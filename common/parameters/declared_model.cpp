@@ -27,7 +27,7 @@ constexpr std::array<DeclaredWord, 5> kDeclaredWords{{{"registration", &Declared
                                                       {"geometry", &DeclaredModel::geometry},
                                                       {"joint_corrections", &DeclaredModel::joint_corrections}}};
 
-constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+constexpr std::array<const char*, 3> kAxisNames{"x", "y", "z"};
 
 std::string link_name(LinkParameter parameter) {
   switch (parameter) {
@@ -168,7 +168,7 @@ std::string ParameterId::name() const {
   if (kind == Kind::effect) return effect;
   if (kind == Kind::contact) return contact_number_name(*this);
   if (kind == Kind::station) return "station " + target + " " + kMotionNames.at(static_cast<std::size_t>(index));
-  const std::string axis = kAxes.at(static_cast<std::size_t>(index));
+  const std::string axis = kAxisNames.at(static_cast<std::size_t>(index));
   const std::string of_what = kind == Kind::base_translation || kind == Kind::base_rotation ? "base_" : "tool_";
   const std::string suffix = target.empty() ? "" : " of " + target;
   return of_what + (is_angle() ? "r" + axis + "_deg" : axis + "_mm") + suffix;

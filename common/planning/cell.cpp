@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kNoLength_m = 1e-3;
 
-double held(double share) {
+double clamped_share(double share) {
   return std::clamp(share, 0.0, 1.0);
 }
 
@@ -30,14 +30,14 @@ double segment_distance(const Eigen::Vector3d& from1, const Eigen::Vector3d& to1
   double share1 = 0.0, share2 = 0.0;
   if (square1 > kTiny) {
     if (spread > kTiny * square1 * std::max(square2, 1.0))
-      share1 = held((dot * ahead2 - ahead1 * square2) / spread);
+      share1 = clamped_share((dot * ahead2 - ahead1 * square2) / spread);
     else if (square2 <= kTiny)
-      share1 = held(-ahead1 / square1);
+      share1 = clamped_share(-ahead1 / square1);
   }
   if (square2 > kTiny) share2 = (dot * share1 + ahead2) / square2;
   if (share2 < 0.0 || share2 > 1.0) {
-    share2 = held(share2);
-    if (square1 > kTiny) share1 = held((dot * share2 - ahead1) / square1);
+    share2 = clamped_share(share2);
+    if (square1 > kTiny) share1 = clamped_share((dot * share2 - ahead1) / square1);
   }
   return (between + share1 * along1 - share2 * along2).norm();
 }
@@ -95,7 +95,7 @@ std::vector<double> assumed_radii(const Chain& chain) {
 
 namespace {
 
-Interval range_of(const Joint& joint, const std::optional<Interval>& stated) {
+Interval planned_range(const Joint& joint, const std::optional<Interval>& stated) {
   Interval range{joint.lower, joint.upper};
   if (stated) range = {std::max(range.lower, stated->lower), std::min(range.upper, stated->upper)};
   const double margin = stated ? 0.0 : kLimitMargin * (range.upper - range.lower);
@@ -154,7 +154,7 @@ std::string_view to_string(Obstruction obstruction) {
 FeasibleSpace::FeasibleSpace(Robot robot, WorkCell cell) : robot_(std::move(robot)), cell_(std::move(cell)) {
   radii_m_ = cell_.radii_m.empty() ? std::vector<double>(robot_.chain.joints.size() + 1, 0.0) : cell_.radii_m;
   for (std::size_t i = 0; i < robot_.chain.joints.size(); ++i)
-    ranges_.push_back(range_of(robot_.chain.joints[i], i < cell_.ranges.size() ? cell_.ranges[i] : std::nullopt));
+    ranges_.push_back(planned_range(robot_.chain.joints[i], i < cell_.ranges.size() ? cell_.ranges[i] : std::nullopt));
 }
 
 Obstruction FeasibleSpace::of_bodies(const std::vector<ArmPart>& parts, const Eigen::Vector3d& tool_m) const {

@@ -110,7 +110,7 @@ constexpr int kRefinements = 8, kRefinementTries = 30;
 constexpr double kWidest = 0.25, kNarrowing = 0.7;  ///< of a joint's range: how far tries of a round go
 constexpr double kOneJoint = 0.5;                   ///< share of tries that move a single joint, anywhere
 constexpr double kOtherSide = 0.3;                  ///< share of tries that come from sides drawn anew
-constexpr double kLeastGain = 2e-3;                 ///< of a round, over what there was
+constexpr double kLeastRoundGain = 2e-3;            ///< of a round, over what there was
 
 /// By how much rows would lower the expected squared error, at one state of knowledge.
 class PoseGain {
@@ -186,7 +186,7 @@ RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, 
       knowledge.add(rows[i]);
     }
     knowledge.set(rows);
-    if (knowledge.square_m2() > (1.0 - kLeastGain) * before) break;
+    if (knowledge.square_m2() > (1.0 - kLeastRoundGain) * before) break;
   }
   return {std::move(poses), knowledge.covariance()};
 }

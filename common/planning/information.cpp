@@ -60,7 +60,7 @@ std::vector<MeasuredPose> as_measured(const PlannedModel& model, const PlannedPo
   return rows;
 }
 
-std::vector<ParameterId> ids_of(const PlannedModel& model, const CorrectedRobot& robot) {
+std::vector<ParameterId> planned_parameters(const PlannedModel& model, const CorrectedRobot& robot) {
   const JointVector anywhere = JointVector::Zero(model.nominal.robot.chain.size());
   DataSet one = model.nominal;
   one.poses = as_measured(model, {anywhere, {}});
@@ -126,7 +126,7 @@ std::vector<std::vector<double>> usual_motions(const PlannedModel& model) {
 }  // namespace
 
 InformationModel::InformationModel(PlannedModel model)
-    : model_(std::move(model)), space_(robot_of(model_), ids_of(model_, robot_of(model_))) {
+    : model_(std::move(model)), space_(robot_of(model_), planned_parameters(model_, robot_of(model_))) {
   const FitOptions options;
   beliefs_.resize(space_.size());
   const std::vector<std::vector<double>> motions = usual_motions(model_);

@@ -21,7 +21,7 @@ namespace demecal::inline planning {
 namespace {
 
 constexpr int kUsualPoses = 40, kMostPoses = 400, kFewestJudging = 10;
-constexpr std::size_t kPlaces = 250;  ///< of the workspace that errors are predicted at
+constexpr std::size_t kWorkspacePlaces = 250;  ///< of the workspace that errors are predicted at
 constexpr int kExchangeRounds = 4;
 
 int judging(const std::optional<int>& asked, int calibration) {
@@ -132,7 +132,7 @@ class Planning {
     candidates_ = std::move(drawn.poses);
     const auto judging_poses =
         static_cast<std::size_t>(judging(request_.validation, most_) + judging(request_.accept, most_));
-    places_ = draw_poses(space_, std::max(kPlaces, judging_poses), stream(2)).poses;
+    places_ = draw_poses(space_, std::max(kWorkspacePlaces, judging_poses), stream(2)).poses;
     const std::size_t needed = request_.accuracy_m ? static_cast<std::size_t>(fewest_poses(model_)) : most;
     if (candidates_.size() >= std::max<std::size_t>(needed, 4) && places_.size() >= judging_poses) return;
     const auto worst = std::ranges::max_element(plan_.refused) - plan_.refused.begin();
@@ -143,7 +143,7 @@ class Planning {
   }
 
   void draw_sockets() {
-    places_ = draw_poses(space_, kPlaces, stream(2)).poses;
+    places_ = draw_poses(space_, kWorkspacePlaces, stream(2)).poses;
     if (places_.empty())
       throw InputError({request_.robot.name, 0}, "0",
                        "random poses are feasible: nothing can be planned in this cell. Widen it");

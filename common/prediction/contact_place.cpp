@@ -14,14 +14,14 @@ namespace {
 
 using Touches = std::vector<Touch>;
 
-Eigen::Vector3d middle_of(const Touches& touches) {
+Eigen::Vector3d mean_point(const Touches& touches) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Touch& touch : touches) mean += touch.point_m / static_cast<double>(touches.size());
   return mean;
 }
 
 /// The points' own axes as columns, by ascending extent.
-Eigen::Matrix3d axes_of(const Touches& touches, const Eigen::Vector3d& middle) {
+Eigen::Matrix3d principal_axes(const Touches& touches, const Eigen::Vector3d& middle) {
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
   for (const Touch& touch : touches) spread += (touch.point_m - middle) * (touch.point_m - middle).transpose();
   return eigen_system_of_three(spread).vectors;
@@ -139,10 +139,10 @@ Eigen::Vector3d turn_axis(const ContactPlace& place, int motion, const Eigen::Ve
 ContactPlace contact_place(const ContactForm& form, const Touches& touches) {
   constexpr double kShortest_m = 1e-9;
   ContactPlace place{form.kind, Eigen::Isometry3d::Identity(), form.radius_m.value_or(0.0), form.radius_m.has_value()};
-  const Eigen::Vector3d middle = middle_of(touches);
+  const Eigen::Vector3d middle = mean_point(touches);
   place.frame.translation() = middle;
   if (form.kind == ContactKind::plane || form.kind == ContactKind::line) {
-    const Eigen::Vector3d axis = axes_of(touches, middle).col(form.kind == ContactKind::plane ? 0 : 2);
+    const Eigen::Vector3d axis = principal_axes(touches, middle).col(form.kind == ContactKind::plane ? 0 : 2);
     if (axis.norm() > kShortest_m) place.frame.linear() = frame_along(axis);
   }
   if (form.kind == ContactKind::sphere) {

@@ -82,7 +82,7 @@ SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std
 }
 
 /// What it depends on beside joints and masses; empty where on nothing.
-std::string to_string(const Needs& needs) {
+std::string circumstances_needed(const Needs& needs) {
   std::string words;
   for (const CircumstanceWords& one : circumstances()) {
     if (needs.*one.needed) words += (words.empty() ? "" : " and ") + std::string(one.words);
@@ -96,7 +96,7 @@ std::string note_on(const Effect& effect, const Robot& robot, bool held) {
   const std::string name =
       effect.kind + (effect.joint < 0 ? std::string() : " of joint " + std::to_string(effect.joint + 1));
   const Needs needs = law_of(effect).needs(effect, robot);
-  const std::string words = to_string(needs);
+  const std::string words = circumstances_needed(needs);
   if (!held) {
     return name + " is left out" + (words.empty() ? "" : ", for it depends on " + words) + '.';
   }
@@ -216,7 +216,7 @@ struct SymbolicHeldState {
 };
 
 /// The weight of the end farther from the joint: none where the ends are no neighbours.
-Expression weight_of_farther_end(const RangedJoint& joint) {
+Expression symbolic_weight_of_farther_end(const RangedJoint& joint) {
   const double unmeasured = kTurn_rad - width(joint.range);
   if (!joint.revolute || unmeasured <= 0.0) return joint.value.algebra().constant(0.0);
   return smooth_step((1.0 / unmeasured) * joint.beyond);
@@ -227,8 +227,8 @@ Expression farther_end(const RangedJoint& joint) {
   return middle(joint.range) - 0.5 * width(joint.range) * side;
 }
 
-std::vector<SymbolicHeldState> held_states(const SymbolicState& state, const std::vector<RangedJoint>& joints,
-                                           bool fades) {
+std::vector<SymbolicHeldState> symbolic_held_states(const SymbolicState& state, const std::vector<RangedJoint>& joints,
+                                                    bool fades) {
   Algebra& algebra = state.algebra();
   std::vector<SymbolicHeldState> all{{state.joints, algebra.constant(1.0)}};
   for (const RangedJoint& joint : joints) {
@@ -237,7 +237,7 @@ std::vector<SymbolicHeldState> held_states(const SymbolicState& state, const std
     const bool wide = joint.revolute && width(joint.range) >= kTurn_rad;
     const Expression near =
         wide ? algebra.function(Function::if_not_negative, {inside(joints), joint.given, joint.nearer}) : joint.nearer;
-    const Expression weight = fades ? algebra.constant(0.0) : weight_of_farther_end(joint);
+    const Expression weight = fades ? algebra.constant(0.0) : symbolic_weight_of_farther_end(joint);
     const std::size_t known = all.size();
     for (std::size_t k = 0; k < known; ++k) {
       all[k].joints[i] = near;
@@ -263,7 +263,7 @@ std::vector<SymbolicUnit> held_units(const Effect& effect, const SymbolicState& 
     if (fades) share = share * smooth_step(larger(algebra.constant(0.0), 1.0 - (1.0 / kFade) * joint.beyond));
   }
   std::vector<SymbolicUnit> all;
-  for (const SymbolicHeldState& anchor : held_states(state, joints, fades)) {
+  for (const SymbolicHeldState& anchor : symbolic_held_states(state, joints, fades)) {
     SymbolicState held = state;
     held.joints = anchor.joints;
     for (SymbolicUnit unit : symbolic_units(effect, held, name)) {

@@ -18,7 +18,7 @@
 namespace demecal::inline prediction {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
 const Eigen::Vector3d& anchor(const DataSet& data, std::size_t distance) {
   DEMECAL_CHECK(distance < data.anchors_m.size(),
@@ -44,7 +44,7 @@ double percentile_95(const std::vector<double>& ascending) {
 }
 
 /// Where the robot has the contact that a pose touches; null: nowhere.
-const ContactPlace* place_of(const CorrectedRobot& robot, const MeasuredPose& pose) {
+const ContactPlace* touched_place(const CorrectedRobot& robot, const MeasuredPose& pose) {
   const auto found = robot.contacts.find(group_of(pose));
   return found == robot.contacts.end() ? nullptr : &found->second;
 }
@@ -102,7 +102,7 @@ Eigen::VectorXd residual(const CorrectedRobot& robot, const Eigen::Isometry3d& p
     if (pose.position_whitening) result.head<3>() = (*pose.position_whitening * result.head<3>()).eval();
   }
   if (rows.contact > 0) {
-    const ContactPlace* const place = place_of(robot, pose);
+    const ContactPlace* const place = touched_place(robot, pose);
     auto own = result.segment(rows.position, rows.contact);
     own.setZero();
     if (place != nullptr) own = pose.contact_weight * contact_residual(*place, touch_of(pose, predicted));
@@ -120,7 +120,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 6> measurement_jacobian(const CorrectedRob
   const MeasurementRows rows = rows_of(pose);
   Eigen::Matrix<double, Eigen::Dynamic, 6> jacobian = Eigen::Matrix<double, Eigen::Dynamic, 6>::Zero(rows.total(), 6);
   if (pose.position_m) jacobian.topLeftCorner<3, 3>() = pose.position_whitening.value_or(Eigen::Matrix3d::Identity());
-  if (const ContactPlace* const place = rows.contact > 0 ? place_of(robot, pose) : nullptr) {
+  if (const ContactPlace* const place = rows.contact > 0 ? touched_place(robot, pose) : nullptr) {
     jacobian.block(rows.position, 0, rows.contact, 3) =
         pose.contact_weight * contact_jacobian(*place, predicted.translation());
   }
@@ -190,11 +190,11 @@ double tool_error_m(const CorrectedRobot& robot, const Eigen::Isometry3d& predic
                     const MeasuredPose& pose) {
   const Eigen::Vector3d point = predicted.translation();
   if (!pose.contact.empty()) {
-    const ContactPlace* const place = place_of(robot, pose);
-    return place == nullptr ? kNone : contact_residual(*place, touch_of(pose, predicted)).norm();
+    const ContactPlace* const place = touched_place(robot, pose);
+    return place == nullptr ? kNotMeasured : contact_residual(*place, touch_of(pose, predicted)).norm();
   }
   if (pose.position_m) return (measured_point(robot, pose) - point).norm();
-  if (pose.distances_m.empty()) return kNone;
+  if (pose.distances_m.empty()) return kNotMeasured;
   return distance_errors(point, data, pose).norm() / std::sqrt(static_cast<double>(pose.distances_m.size()));
 }
 
@@ -229,7 +229,7 @@ ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std
 }
 
 ErrorFigures error_figures(std::vector<double> errors_mm) {
-  if (errors_mm.empty()) return {kNone, kNone, kNone, kNone};
+  if (errors_mm.empty()) return {kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured};
   std::sort(errors_mm.begin(), errors_mm.end());
   const auto count = static_cast<double>(errors_mm.size());
   const double sum = std::accumulate(errors_mm.begin(), errors_mm.end(), 0.0);

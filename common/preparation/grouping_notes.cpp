@@ -14,7 +14,7 @@ namespace {
 constexpr double kClearGap = 1.6;  ///< ratio of mean distances between and within places
 constexpr double kErrorsOfArm_m = 5e-3;
 constexpr double kSureApart = 2.0;  ///< times the scatter of two contacts together
-constexpr double kOtherTool_m = 5e-3;
+constexpr double kToolElsewhere_m = 5e-3;
 constexpr std::size_t kFewPoses = 6;
 
 std::string gap_note(const PlaceGroups& groups) {
@@ -68,7 +68,7 @@ std::string tool_note(const Recordings& recordings, const RecordedContacts& foun
   constexpr double kFarWorse = 2.0;
   const double off_m = (found.tool_m - recordings.robot.chain.tool_m).norm();
   const Scatters sums = scatters(recordings, found);
-  if (off_m < kOtherTool_m || sums.nominal_m2 < kFarWorse * sums.taken_m2) return "";
+  if (off_m < kToolElsewhere_m || sums.nominal_m2 < kFarWorse * sums.taken_m2) return "";
   return fmt::format(
       "the standstills agree best with the tool point at [{:.1f}, {:.1f}, {:.1f}] mm in the flange's frame, {:.0f} mm "
       "from where the robot file has it. It was taken to group them and for nothing else: correct tool_mm, or let the "

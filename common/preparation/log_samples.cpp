@@ -13,13 +13,6 @@ constexpr double kSample_s = 0.01;      ///< rows closer than this are averaged
 constexpr double kNoiseWindow_s = 0.3;  ///< in which an arm that stands, or moves evenly, shows its noise
 constexpr std::size_t kNoiseRows = 5;
 
-/// The value that a share of all is below; there must be one.
-double quantile(std::vector<double> values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
-
 /// The least step that a joint's readings differ by, other than 0: of encoders that stand between two counts.
 double smallest_step(const LogSamples& samples, Eigen::Index joint) {
   double least = std::numeric_limits<double>::infinity();

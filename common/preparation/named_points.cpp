@@ -51,10 +51,6 @@ bool same_numbers(const Target& one, const Target& other) {
   throw InputError({program.file, 0}, points, rule);
 }
 
-std::string counted(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 }  // namespace
 
 std::vector<NamedPoint> named_points(const Program& program, PointKind kind, const std::string& points) {

@@ -27,7 +27,7 @@ constexpr double kSurelyThere_m = 5e-3;
 
 using Indices = std::vector<std::size_t>;
 
-Eigen::Vector3d median_of(const std::vector<Eigen::Vector3d>& points_m) {
+Eigen::Vector3d median_point(const std::vector<Eigen::Vector3d>& points_m) {
   Eigen::Vector3d centre;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
@@ -165,7 +165,7 @@ class RecordingSearch {
     std::vector<Eigen::Vector3d> centres_m;
     std::vector<double> scatters_m;
     for (const Indices& members : kept_) {
-      centres_m.push_back(median_of(places_of(members)));
+      centres_m.push_back(median_point(places_of(members)));
       scatters_m.push_back(robust_scatter_m(places_of(members), centres_m.back()));
     }
     std::map<std::size_t, std::size_t> own;

@@ -90,7 +90,7 @@ std::vector<double> shown(const Chain& arm, const JointVector& values) {
 }
 
 /// The largest of the joints that turn, and of those that slide: "0.0012 deg and 0.03 mm".
-std::string largest(const Chain& arm, const JointVector& values, const char* per) {
+std::string largest_text(const Chain& arm, const JointVector& values, const char* per) {
   std::vector<std::string> parts;
   for (const bool revolute : {true, false}) {
     double most = 0.0;
@@ -110,8 +110,8 @@ std::string log_text(const Recordings& recordings, const RecordedContacts& found
   const JointLog& log = recordings.logs[number];
   const LogNoise& noise = found.noise[number];
   return fmt::format("  {}: {} rows in {:.0f} s; joints scatter by {} and stand below {}\n", log.file,
-                     log.times_s.size(), log.times_s.back() - log.times_s.front(), largest(arm, noise.sigma, ""),
-                     largest(arm, noise.fastest, "/s"));
+                     log.times_s.size(), log.times_s.back() - log.times_s.front(), largest_text(arm, noise.sigma, ""),
+                     largest_text(arm, noise.fastest, "/s"));
 }
 
 std::string mm_cell(double length_m) {

@@ -48,7 +48,7 @@ void require_frame(const ThreePoints& points_m, const std::string& file) {
                                height, kLeastRelativeHeight));
 }
 
-double distance(const ThreePoints& points_m, const std::array<std::size_t, 2>& pair) {
+double side_length(const ThreePoints& points_m, const std::array<std::size_t, 2>& pair) {
   return (points_m[pair[0]] - points_m[pair[1]]).norm();
 }
 
@@ -130,7 +130,8 @@ RobotPoints robot_points(const ThreePoints& in_base_m, const std::string& file) 
 double largest_difference_m(const TaughtPoints& points) {
   double largest = 0.0;
   for (const auto& pair : kPairs) {
-    largest = std::max(largest, std::abs(distance(points.in_base_m, pair) - distance(points.in_instrument_m, pair)));
+    largest =
+        std::max(largest, std::abs(side_length(points.in_base_m, pair) - side_length(points.in_instrument_m, pair)));
   }
   return largest;
 }
@@ -142,8 +143,8 @@ TaughtPoints taught_points(const RobotPoints& robot, const Readings& readings, d
   require_frame(points.in_base_m, robot.file);
   require_frame(points.in_instrument_m, readings.file);
   for (const auto& pair : kPairs) {
-    const double base_mm = millimetres(distance(points.in_base_m, pair));
-    const double instrument_mm = millimetres(distance(points.in_instrument_m, pair));
+    const double base_mm = millimetres(side_length(points.in_base_m, pair));
+    const double instrument_mm = millimetres(side_length(points.in_instrument_m, pair));
     if (std::abs(base_mm - instrument_mm) <= millimetres(tolerance_m)) continue;
     throw InputError({readings.file, 0}, "",
                      fmt::format("points {} and {} of the local frame are {:.3f} mm apart as measured, but {:.3f} mm "

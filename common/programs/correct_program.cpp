@@ -29,7 +29,7 @@ namespace demecal::inline programs {
 namespace {
 
 /// The joint that two configurations differ in most.
-std::string difference_of(const Chain& arm, const JointVector& one, const JointVector& other) {
+std::string differing_joint(const Chain& arm, const JointVector& one, const JointVector& other) {
   Eigen::Index joint = 0;
   (one - other).cwiseAbs().maxCoeff(&joint);
   const Joint& link = arm.joints[static_cast<std::size_t>(joint)];
@@ -79,7 +79,7 @@ class Corrector {
       const bool known = visit.found.from != JointsFrom::undetermined;
       corrected.remarks = {"line " + std::to_string(line) + (known ? " reaches" : " may reach") +
                            " it in another configuration than the first motion does (" +
-                           difference_of(model.nominal.chain, corrected.nominal, again.nominal) +
+                           differing_joint(model.nominal.chain, corrected.nominal, again.nominal) +
                            "), and the corrections differ by " +
                            fixed_text(millimetres(difference.head<3>().norm()), 3) + " mm and " +
                            fixed_text(degrees(difference.tail<3>().norm()), 3) +
@@ -164,7 +164,7 @@ class Corrector {
     corrected.remarks = {
         "the arm's configuration" +
         (words.empty() ? "" : ", stated as '" + words + "', which does not mean the same on all arms,") +
-        " is not known (" + difference_of(arm, corrected.nominal, alternatives[other].nominal) +
+        " is not known (" + differing_joint(arm, corrected.nominal, alternatives[other].nominal) +
         "), and the corrections differ by " + fixed_text(millimetres(difference.head<3>().norm()), 3) + " mm and " +
         fixed_text(degrees(difference.tail<3>().norm()), 3) + " deg: " + moved_text(corrected) + " or " +
         moved_text(alternatives[other]) + "; this line was not corrected; " +

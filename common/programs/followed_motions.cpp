@@ -59,7 +59,7 @@ void keep_common(const ArmKnowledge& other, ArmKnowledge& arm) {
 }
 
 /// Takes in what another path finds.
-void join(const Configurations& other, Configurations& found) {
+void merge_found(const Configurations& other, Configurations& found) {
   if (other.joints.empty()) return;
   if (found.joints.empty()) {
     found = other;
@@ -160,7 +160,7 @@ class ArmFollower {
       if (first) {
         visit = {visit.order, visit.target, visit.again, visit.near, found, arm.signs};
       } else {
-        join(found, visit.found);
+        merge_found(found, visit.found);
         join_signs(arm.signs, visit);
       }
     }

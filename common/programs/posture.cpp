@@ -36,7 +36,7 @@ std::array<JointAxis, kSix> axes_at(const Chain& arm, const JointVector& joints)
   return axes;
 }
 
-double distance(const JointAxis& axis, const Eigen::Vector3d& point) {
+double distance_from_axis(const JointAxis& axis, const Eigen::Vector3d& point) {
   return (point - axis.point).cross(axis.direction).norm();
 }
 
@@ -54,7 +54,7 @@ std::optional<std::array<double, 3>> sides_of(const Chain& arm, const JointVecto
   constexpr double kMeet_m = 1e-3, kParallel = 1e-3, kCross = 0.5;
   const std::array<JointAxis, kSix> axes = axes_at(arm, joints);
   const Eigen::Vector3d wrist = wrist_of(axes), forward_side = axes[0].direction.cross(axes[1].direction);
-  const bool spherical = distance(axes[3], wrist) < kMeet_m && distance(axes[5], wrist) < kMeet_m;
+  const bool spherical = distance_from_axis(axes[3], wrist) < kMeet_m && distance_from_axis(axes[5], wrist) < kMeet_m;
   const bool planar = axes[1].direction.cross(axes[2].direction).norm() < kParallel && forward_side.norm() > kCross;
   if (!spherical || !planar) return std::nullopt;
   const auto in_plane = [&](const Eigen::Vector3d& way) {

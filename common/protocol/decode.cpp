@@ -20,13 +20,13 @@
 namespace demecal::inline protocol {
 namespace {
 
-constexpr std::size_t kMostNodes = 65535;
+constexpr std::size_t kMostFormulaNodes = 65535;
 /// Behind which a sample's content stands (RTPS 2.3, 10.2): two bytes that name its form, two of options.
 constexpr std::size_t kEncapsulation_bytes = 4;
 constexpr std::size_t kFilling_bytes = 3;
 
 std::optional<Tree> tree_of(const FlatFormula& formula) {
-  if (formula.primitives.size() > kMostNodes) return std::nullopt;
+  if (formula.primitives.size() > kMostFormulaNodes) return std::nullopt;
   auto variable = formula.variables.begin();
   auto constant = formula.constants.begin();
   Tree tree;

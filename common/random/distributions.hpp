@@ -33,6 +33,8 @@ double median_coverage(std::size_t count, std::size_t rank);
 
 /// The upper one of the two middle values where there are as many below as above. There must be a value.
 double median(std::vector<double> values);
+/// Of all values in order that at the place share * (count - 1), rounded down. There must be a value.
+double quantile(std::vector<double> values, double share);
 /// Not a number where there are no values.
 double mean(const std::vector<double>& values);
 

@@ -19,7 +19,7 @@
 namespace demecal::inline report {
 namespace {
 
-CsvRow written(const HistoryRow& row) {
+CsvRow as_csv_row(const HistoryRow& row) {
   return {0,
           {std::to_string(row.island.joint + 1), std::to_string(row.island.deme + 1), std::to_string(row.generation),
            fmt::format("{}", row.figures.best), fmt::format("{}", row.figures.median),
@@ -53,18 +53,18 @@ std::uint64_t number_from_one(const CsvRow& row, std::size_t at) {
   return static_cast<std::uint64_t>(*value);
 }
 
-double number_of(const CsvRow& row, std::size_t at) {
+double number_field(const CsvRow& row, std::size_t at) {
   const std::optional<double> value = parse_number(row.fields[at]);
   if (!value) throw InputError({kHistoryFile, row.line}, row.fields[at], "must be a number");
   return *value;
 }
 
 /// Nothing where the fitness is written, but is not finite.
-std::optional<double> fitness_of(const CsvRow& row, std::size_t at) {
+std::optional<double> fitness_field(const CsvRow& row, std::size_t at) {
   for (const char* const word : {"inf", "-inf", "nan", "-nan"}) {
     if (row.fields[at] == word) return std::nullopt;
   }
-  return number_of(row, at);
+  return number_field(row, at);
 }
 
 void find_extent(FitnessHistory& history) {
@@ -95,7 +95,7 @@ std::string history_csv(const std::vector<HistoryRow>& rows) {
   CsvTable table{.file = {}, .header_line = 0, .columns = {}, .rows = {}};
   table.columns = {"joint",       "island",      "generation",     "best_fitness", "median_fitness",
                    "best_length", "evaluations", "migrants_taken", "worker"};
-  for (const HistoryRow& row : rows) table.rows.push_back(written(row));
+  for (const HistoryRow& row : rows) table.rows.push_back(as_csv_row(row));
   return csv_text(table);
 }
 
@@ -142,7 +142,7 @@ FitnessHistory read_fitness(const std::string& csv) {
     const std::size_t generation = column(table, "generation"), best = column(table, "best_fitness");
     for (const CsvRow& row : table.rows) {
       std::vector<FitnessPoint>& points = history.joints[number_from_one(row, joint)][number_from_one(row, island)];
-      if (const auto fitness = fitness_of(row, best)) points.push_back({number_of(row, generation), *fitness});
+      if (const auto fitness = fitness_field(row, best)) points.push_back({number_field(row, generation), *fitness});
     }
   }
   find_extent(history);
@@ -161,12 +161,6 @@ std::string cell(const std::optional<double>& value) {
 void add_cells(const std::vector<double>& values, std::size_t count, CsvRow& row) {
   for (std::size_t i = 0; i < count; ++i)
     row.fields.push_back(i < values.size() ? number_text(values[i]) : std::string());
-}
-
-std::string joined(const std::vector<std::string>& flags) {
-  std::string text;
-  for (const std::string& flag : flags) text += (text.empty() ? "" : " ") + flag;
-  return text;
 }
 
 struct VectorColumns {
@@ -203,8 +197,9 @@ std::string pose_errors_csv(const Report& report) {
   if (timed) table.columns.emplace_back("time_s");
   for (const PoseErrorEntry& pose : poses) {
     CsvRow& row = table.rows.emplace_back();
-    row.fields = {on_one_line(pose.id), on_one_line(pose.target), pose.set,          cell(pose.before_mm),
-                  cell(pose.after_mm),  cell(pose.interval95_mm), joined(pose.flags)};
+    row.fields = {on_one_line(pose.id),         on_one_line(pose.target), pose.set,
+                  cell(pose.before_mm),         cell(pose.after_mm),      cell(pose.interval95_mm),
+                  joined_words(pose.flags, " ")};
     add_cells(pose.place.joints, joints, row);
     for (const VectorColumns& columns : vectors) add_cells(pose.place.*columns.values, 3, row);
     if (warm) row.fields.push_back(cell(pose.place.temperature_celsius));

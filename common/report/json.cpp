@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string shortened(const Json& value) {
+std::string excerpt(const Json& value) {
   constexpr std::size_t kShown = 40;
   const std::string text = value.dump(-1, ' ', true, Json::error_handler_t::replace);
   return text.size() <= kShown ? text : text.substr(0, kShown) + "...";
@@ -53,7 +53,7 @@ JsonValue JsonValue::child(const Json* value, const std::string& step) const {
 }
 
 void JsonValue::refuse(const std::string& rule) const {
-  throw InputError({file_, 0}, exists() ? shortened(*value_) : "",
+  throw InputError({file_, 0}, exists() ? excerpt(*value_) : "",
                    (path_.empty() ? "the whole document" : path_) + " " + rule);
 }
 

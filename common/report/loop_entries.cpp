@@ -49,11 +49,11 @@ std::optional<double> amplitude_of(const Effect& effect, const std::vector<Coeff
   return alike == 1 ? effect.values[0] : size;
 }
 
-std::uint64_t count_of(int number) {
+std::uint64_t as_count(int number) {
   return static_cast<std::uint64_t>(std::max(number, 0));
 }
 
-std::vector<NamedInterval> intervals(const Round& round, const Robot& robot) {
+std::vector<NamedInterval> named_intervals(const Round& round, const Robot& robot) {
   const std::vector<CoefficientLabel> labels = labels_of(round.effect, robot);
   std::vector<NamedInterval> named;
   for (std::size_t i = 0; i < std::min(labels.size(), round.interval.size()); ++i)
@@ -62,8 +62,8 @@ std::vector<NamedInterval> intervals(const Round& round, const Robot& robot) {
 }
 
 RoundEntry round_entry(const Round& round, const Robot& robot) {
-  RoundEntry entry{.round = count_of(round.number),
-                   .group = count_of(round.group),
+  RoundEntry entry{.round = as_count(round.number),
+                   .group = as_count(round.group),
                    .verdict = to_string(round.verdict),
                    .effect = effect_entry(round.effect, robot),
                    .diagnosis = round.diagnosis,
@@ -75,12 +75,12 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
                    .rivals = {},
                    .p_structure = if_finite(round.p_structure),
                    .p_family = if_finite(round.p_family),
-                   .null_draws = count_of(round.null_draws),
+                   .null_draws = as_count(round.null_draws),
                    .gain_nats = if_finite(round.gain_nats),
                    .confirmed = if_finite(round.confirmed),
                    .confirmed_lower = if_finite(round.confirmed_lower),
                    .sign_stability = if_finite(round.sign_stability),
-                   .interval = intervals(round, robot),
+                   .interval = named_intervals(round, robot),
                    .validation_before_mm = if_finite(round.validation_before_mm),
                    .validation_after_mm = if_finite(round.validation_after_mm),
                    .next_measurement = {}};
@@ -90,7 +90,7 @@ RoundEntry round_entry(const Round& round, const Robot& robot) {
   entry.members = effect_class(entry.effect, entry.rivals);
   entry.class_sentence = class_sentence(entry.members);
   if (const auto& next = round.next_measurement)
-    entry.next_measurement = NextMeasurementEntry{next->sentence, count_of(next->poses)};
+    entry.next_measurement = NextMeasurementEntry{next->sentence, as_count(next->poses)};
   return entry;
 }
 
@@ -175,7 +175,7 @@ std::string front_sentence(const Report& report) {
 EffectEntry effect_entry(const Effect& effect, const Robot& robot) {
   EffectEntry entry;
   entry.kind = effect.kind;
-  if (effect.joint >= 0) entry.joint = count_of(effect.joint) + 1;
+  if (effect.joint >= 0) entry.joint = as_count(effect.joint) + 1;
   entry.form = effect.form;
   for (const auto& [name, value] : effect.settings) entry.parameters.push_back({name, if_finite(value)});
   const std::vector<CoefficientLabel> labels = labels_of(effect, robot);
@@ -227,7 +227,7 @@ void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Ro
                      .share_of_error = if_finite(cost.share),
                      .interval_mm = {cost.interval_mm.begin(), cost.interval_mm.end()},
                      .advice = advice_for(cost.cause, robot)};
-    if (cost.cause.joint >= 0) entry.joint = count_of(cost.cause.joint) + 1;
+    if (cost.cause.joint >= 0) entry.joint = as_count(cost.cause.joint) + 1;
     for (const std::size_t effect : cost.cause.effects)
       entry.effects.push_back(effect_entry(robot.effects[effect], described).name());
     entry.alternatives = alternatives_to(cost.cause, entry.effects, report.rounds);
@@ -249,8 +249,8 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   report.stopped = to_string(loop.stopped);
   report.lack_of_fit_p = if_any(loop.lack_of_fit_p);
   report.explained_share = if_any(loop.explained_share);
-  report.candidates = count_of(loop.candidates);
-  report.null_draws = count_of(loop.null_draws);
+  report.candidates = as_count(loop.candidates);
+  report.null_draws = as_count(loop.null_draws);
   if (!report.loop_ran()) return;
   report.structure_left_p = if_finite(loop.p_structure_left);
   report.noise = noise_entry(loop);

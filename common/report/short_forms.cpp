@@ -20,10 +20,10 @@ namespace demecal::inline report {
 namespace {
 
 constexpr double kMostIncrease = 0.05;  ///< of the error, by the short forms of all joints together
-constexpr std::size_t kMostNodes = 20;
+constexpr std::size_t kMostFormNodes = 20;
 constexpr int kHighestWave = 5, kFewestDigits = 2, kMostDigits = 4;
-constexpr double kNear = 0.5;  ///< of the correction's size: a form that differs by more is not tried
-constexpr std::size_t kMostPoses = 300;
+constexpr double kNearCorrection = 0.5;  ///< of the correction's size: a form that differs by more is not tried
+constexpr std::size_t kMostJudgingPoses = 300;
 
 /// Waves by their cycles a turn, and whether there are a slope and an offset.
 struct Shape {
@@ -49,7 +49,7 @@ std::vector<Shape> shapes() {
     for (const auto& [slope, offset] : {std::pair{false, false}, std::pair{false, true}, std::pair{true, false}}) {
       const Shape shape{waves, slope, offset};
       if (waves.empty() && !slope && !offset) continue;
-      if (shape.nodes() <= kMostNodes) all.push_back(shape);
+      if (shape.nodes() <= kMostFormNodes) all.push_back(shape);
     }
   }
   std::ranges::stable_sort(all, {}, &Shape::nodes);
@@ -57,7 +57,7 @@ std::vector<Shape> shapes() {
 }
 
 /// A number with so many significant digits.
-double with_digits(double value, int digits) {
+double to_significant_digits(double value, int digits) {
   if (value == 0.0) return value;
   const double power = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(value))));
   return std::round(value * power) / power;
@@ -80,7 +80,7 @@ std::string shifted_name(const std::string& name, double shift_deg) {
   return fmt::format("{} {} {} deg", name, shift_deg < 0 ? '-' : '+', std::abs(shift_deg));
 }
 
-Tree sum_of(const Tree& sum, const Tree& term) {
+Tree sum_with(const Tree& sum, const Tree& term) {
   return sum.empty() ? term : apply(Primitive::add, sum, term);
 }
 
@@ -91,35 +91,36 @@ struct Sum {
   std::string angle;  ///< what the text calls the joint's angle
 
   void add_wave(int cycles, double cosine, double sine, int digits) {
-    const double size_mrad = with_digits(1e3 * std::hypot(cosine, sine), digits);
+    const double size_mrad = to_significant_digits(1e3 * std::hypot(cosine, sine), digits);
     double phase_deg = degrees_with_digits(std::atan2(cosine, sine), digits);
     const double sign = std::abs(phase_deg) > 90.0 ? -1.0 : 1.0;
     if (sign < 0) phase_deg -= std::copysign(180.0, phase_deg);
     Tree turned = variable_tree(0);
     if (cycles > 1) turned = apply(Primitive::multiply, constant_tree(cycles), turned);
     turned = apply(Primitive::add, turned, constant_tree(radians(phase_deg)));
-    formula = sum_of(
+    formula = sum_with(
         formula, apply(Primitive::multiply, constant_tree(1e-3 * sign * size_mrad), apply(Primitive::sine, turned)));
     const std::string argument = (cycles > 1 ? std::to_string(cycles) + " " : "") + angle;
     text = plus(text, sign, fmt::format("{} mrad sin({})", size_mrad, shifted_name(argument, phase_deg)));
   }
   /// `slope` is in mrad per rad, zero at `zero_rad`.
   void add_slope(double slope, double zero_rad, int digits) {
-    const double zero_deg = degrees_with_digits(zero_rad, digits), rounded_slope = with_digits(1e3 * slope, digits);
-    formula = sum_of(formula, apply(Primitive::multiply, constant_tree(1e-3 * rounded_slope),
-                                    apply(Primitive::subtract, variable_tree(0), constant_tree(radians(zero_deg)))));
+    const double zero_deg = degrees_with_digits(zero_rad, digits),
+                 rounded_slope = to_significant_digits(1e3 * slope, digits);
+    formula = sum_with(formula, apply(Primitive::multiply, constant_tree(1e-3 * rounded_slope),
+                                      apply(Primitive::subtract, variable_tree(0), constant_tree(radians(zero_deg)))));
     const std::string from_zero = zero_deg == 0.0 ? angle : "(" + shifted_name(angle, -zero_deg) + ")";
     text = plus(text, rounded_slope, fmt::format("{} mrad/rad {}", std::abs(rounded_slope), from_zero));
   }
   void add_offset(double offset_rad, int digits) {
-    const double offset_mrad = with_digits(1e3 * offset_rad, digits);
-    formula = sum_of(formula, constant_tree(1e-3 * offset_mrad));
+    const double offset_mrad = to_significant_digits(1e3 * offset_rad, digits);
+    formula = sum_with(formula, constant_tree(1e-3 * offset_mrad));
     text = plus(text, offset_mrad, fmt::format("{} mrad", std::abs(offset_mrad)));
   }
 };
 
 /// Coefficients of a shape: cosine and sine of every wave, then slope, then offset.
-Eigen::VectorXd fitted(const Shape& shape, const Eigen::VectorXd& angles, const Eigen::VectorXd& values) {
+Eigen::VectorXd fitted_coefficients(const Shape& shape, const Eigen::VectorXd& angles, const Eigen::VectorXd& values) {
   const auto waves = static_cast<Eigen::Index>(shape.waves.size());
   const bool constant = shape.slope || shape.offset;
   Eigen::MatrixXd columns(angles.size(), 2 * waves + (shape.slope ? 1 : 0) + (constant ? 1 : 0));
@@ -132,10 +133,10 @@ Eigen::VectorXd fitted(const Shape& shape, const Eigen::VectorXd& angles, const 
   if (constant) columns.rightCols(1).setOnes();
   const Eigen::VectorXd coefficients = PivotedQr(columns).solve(values);
   const double left = (values - columns * coefficients).norm();
-  return left < kNear * values.norm() ? coefficients : Eigen::VectorXd();
+  return left < kNearCorrection * values.norm() ? coefficients : Eigen::VectorXd();
 }
 
-Sum written(const Shape& shape, const Eigen::VectorXd& coefficients, const std::string& angle, int digits) {
+Sum rounded_sum(const Shape& shape, const Eigen::VectorXd& coefficients, const std::string& angle, int digits) {
   Sum sum{.angle = angle};
   Eigen::Index at = 0;
   for (const int cycles : shape.waves) {
@@ -148,9 +149,9 @@ Sum written(const Shape& shape, const Eigen::VectorXd& coefficients, const std::
 }
 
 /// The poses that tell, evenly out of many.
-std::vector<std::size_t> judging_poses(const DataSet& data, const CorrectedRobot& robot) {
+std::vector<std::size_t> judging_sample(const DataSet& data, const CorrectedRobot& robot) {
   std::vector<std::size_t> all = selection_poses(data, robot), some;
-  const std::size_t count = std::min(all.size(), kMostPoses);
+  const std::size_t count = std::min(all.size(), kMostJudgingPoses);
   for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
   return some;
 }
@@ -158,7 +159,7 @@ std::vector<std::size_t> judging_poses(const DataSet& data, const CorrectedRobot
 class Shortening {
  public:
   Shortening(const DataSet& data, const CorrectedRobot& robot)
-      : data_(data), robot_(robot), judging_(data, judging_poses(data, robot), robot), square_(left(robot)) {}
+      : data_(data), robot_(robot), judging_(data, judging_sample(data, robot), robot), square_(left(robot)) {}
 
   std::vector<std::optional<ShortForm>> run();
 
@@ -183,10 +184,10 @@ std::optional<ShortForm> Shortening::shortest(std::size_t joint, double most) {
   }
   const std::string angle = "q" + std::to_string(joint + 1);
   for (const Shape& shape : shapes()) {
-    const Eigen::VectorXd coefficients = fitted(shape, angles, values);
+    const Eigen::VectorXd coefficients = fitted_coefficients(shape, angles, values);
     if (coefficients.size() == 0 || !coefficients.allFinite()) continue;
     for (int digits = kFewestDigits; digits <= kMostDigits; ++digits) {
-      const Sum sum = written(shape, coefficients, angle, digits);
+      const Sum sum = rounded_sum(shape, coefficients, angle, digits);
       robot_.corrections[joint] = JointCorrection(sum.formula, present.branch(), present.range_rad());
       if (left(robot_) <= most) return ShortForm{sum.text, sum.formula.size(), robot_.corrections[joint]};
     }

@@ -17,8 +17,6 @@
 namespace demecal::inline residuals {
 namespace {
 
-constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
-
 std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
   std::vector<ParameterId> ids = free_parameters(problem.data, problem.declared);
   for (ParameterId& id : effect_parameters(robot)) ids.push_back(std::move(id));
@@ -136,7 +134,7 @@ ModelColumns those_of(const ModelColumns& columns, const std::vector<Eigen::Inde
           columns.known_residual};
 }
 
-void append(ModelColumns& columns, const SharedErrors& shared) {
+void append_shared_errors(ModelColumns& columns, const SharedErrors& shared) {
   const Eigen::Index known = columns.precision.size(), more = shared.fitted.cols();
   columns.fitted = beside(columns.fitted, shared.fitted);
   columns.validation = beside(columns.validation, shared.validation);
@@ -149,7 +147,8 @@ void append(ModelColumns& columns, const SharedErrors& shared) {
 }
 
 /// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
-RowScales scales_of(const DiagnosisProblem& problem, const Linearization& linearization, const RowScales& present) {
+RowScales rescaled_by_residuals(const DiagnosisProblem& problem, const Linearization& linearization,
+                                const RowScales& present) {
   RowScales squares{}, freedom{};
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
     const RowCounts count = count_rows(problem.data.poses[linearization.fitted.poses[i]]);
@@ -172,7 +171,7 @@ RowScales scales_of(const DiagnosisProblem& problem, const Linearization& linear
   return scales;
 }
 
-bool settled(const RowScales& before, const RowScales& after) {
+bool scales_settled(const RowScales& before, const RowScales& after) {
   constexpr double kSettled = 0.02;
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
     if (before[kind] > 0 && std::abs(after[kind] / before[kind] - 1.0) > kSettled) return false;
@@ -180,7 +179,7 @@ bool settled(const RowScales& before, const RowScales& after) {
   return true;
 }
 
-void set_standard_errors(CorrectedRobot& robot, const Linearization& linearization) {
+void set_effect_errors(CorrectedRobot& robot, const Linearization& linearization) {
   for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
     const ParameterId& id = linearization.ids[i];
     if (id.kind != ParameterId::Kind::effect) continue;
@@ -192,7 +191,7 @@ void set_standard_errors(CorrectedRobot& robot, const Linearization& linearizati
 }
 
 /// A start's scales, which its few gross errors cannot have driven up.
-RowScales first_scales(const DiagnosisProblem& problem, const Fit& start) {
+RowScales starting_scales(const DiagnosisProblem& problem, const Fit& start) {
   const RowScales median =
       median_deviations(problem.data, start.robot, observe(problem.data, problem.fitted, start.robot));
   RowScales scales{start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
@@ -217,7 +216,7 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
   model.robot = start.robot;
   model.smooth = smooth_corrections(problem.data, problem.fitted, start.robot, problem.declared.joint_corrections,
                                     problem.declared.joint_offset);
-  model.scales = first_scales(problem, start);
+  model.scales = starting_scales(problem, start);
   return model;
 }
 
@@ -243,7 +242,7 @@ Linearization linearize_without(const DiagnosisProblem& problem, const Diagnosed
       without_effects(left_out, model.robot, model.smooth.coefficients.size(), ids, fitted, validation);
   if (std::ssize(kept) < columns.precision.size()) columns = those_of(columns, kept);
   const Eigen::Index own = columns.precision.size();
-  append(columns, shared);
+  append_shared_errors(columns, shared);
   Projection projection(columns, fitted.residual, validation.residual);
   Eigen::VectorXd changes = projection.changes().head(own);
   Eigen::MatrixXd covariance = projection.covariance().topLeftCorner(own, own);
@@ -260,11 +259,11 @@ DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, in
     model.robot = space.at(linearization.changes.head(space.size())).robot;
     model.smooth.coefficients += linearization.changes.tail(model.smooth.coefficients.size());
     model.robot.corrections = model.smooth.corrections();
-    set_standard_errors(model.robot, linearization);
+    set_effect_errors(model.robot, linearization);
     const RowScales before = model.scales;
-    if (!model.noise_estimated) model.scales = scales_of(problem, linearization, model.scales);
+    if (!model.noise_estimated) model.scales = rescaled_by_residuals(problem, linearization, model.scales);
     const double gained = (linearization.fitted.residual - linearization.errors).squaredNorm();
-    if (settled(before, model.scales) && gained < 1e-4 * static_cast<double>(linearization.fitted.rows())) break;
+    if (scales_settled(before, model.scales) && gained < 1e-4 * static_cast<double>(linearization.fitted.rows())) break;
   }
   return model;
 }

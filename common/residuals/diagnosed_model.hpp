@@ -20,6 +20,8 @@
 
 namespace demecal::inline residuals {
 
+inline constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
+
 /// One value of all the numbers of the model, and how measurements scatter about it.
 struct DiagnosedModel {
   CorrectedRobot robot;  ///< with its effects; corrections are those of `smooth`

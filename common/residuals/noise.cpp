@@ -22,13 +22,14 @@ constexpr Eigen::Index kMostKnots = 120;
 constexpr double kLeastVariance = 0.05;  ///< of a function's part in all rows, over that of independent noise
 
 /// Puts what a unit of an error does to a pose's scaled rows (count x columns) at its place.
-void place(const ResidualField& field, std::size_t pose, Eigen::MatrixXd rows, Eigen::Index column, RowMatrix& to) {
+void add_whitened_rows(const ResidualField& field, std::size_t pose, Eigen::MatrixXd rows, Eigen::Index column,
+                       RowMatrix& to) {
   if (field.within[pose].size() > 0) rows = field.within[pose].triangularView<Eigen::Lower>().solve(rows);
   to.block(field.first_row[pose], column, rows.rows(), rows.cols()) += field.root_weight[pose] * rows;
 }
 
 /// The fitted poses of every repeated one, by the first of them.
-std::map<std::size_t, std::vector<std::size_t>> repeated(const ResidualField& field) {
+std::map<std::size_t, std::vector<std::size_t>> repeated_poses(const ResidualField& field) {
   std::map<std::size_t, std::vector<std::size_t>> groups;
   for (std::size_t i = 0; i < field.poses.size(); ++i) groups[field.group[i]].push_back(i);
   std::erase_if(groups, [](const auto& group) { return group.second.size() < 2; });
@@ -37,7 +38,7 @@ std::map<std::size_t, std::vector<std::size_t>> repeated(const ResidualField& fi
 
 /// One set of columns a repeated pose: one a row of it. Judging poses are not repeats of fitted ones.
 RowMatrix columns_of_repeats(double size, const ResidualField& field) {
-  const auto groups = repeated(field);
+  const auto groups = repeated_poses(field);
   if (groups.size() > kMostRepeated) return RowMatrix(field.rows(), 0);
   Eigen::Index columns = 0;
   for (const auto& [first, poses] : groups) columns += field.rows_of_pose(first);
@@ -49,7 +50,7 @@ RowMatrix columns_of_repeats(double size, const ResidualField& field) {
       const Eigen::Index rows = std::min(count, field.rows_of_pose(pose));
       Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(field.rows_of_pose(pose), rows);
       unit.diagonal().setConstant(size);
-      place(field, pose, unit, column, result);
+      add_whitened_rows(field, pose, unit, column, result);
     }
     column += count;
   }
@@ -100,7 +101,7 @@ RowMatrix columns_of_drift(const SharedInOrder& drift, const ResidualField& fiel
     Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(count, result.cols());
     for (Eigen::Index axis = 0; axis < std::min(count, kPositionAxes); ++axis)
       unit.row(axis).segment(axis * drift.size(), drift.size()) = values;
-    place(field, pose, unit, 0, result);
+    add_whitened_rows(field, pose, unit, 0, result);
   }
   return result;
 }

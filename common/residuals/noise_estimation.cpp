@@ -20,20 +20,20 @@
 namespace demecal::inline residuals {
 namespace {
 
-constexpr Eigen::Index kMostRows = 360;  ///< in an estimate: a likelihood costs their cube
-constexpr std::size_t kRuns = 3;         ///< of poses, where not all take part
-constexpr double kLikelier = 0.5;        ///< nats that a component must make the residuals likelier by
+constexpr Eigen::Index kMostLikelihoodRows = 360;  ///< in an estimate: a likelihood costs their cube
+constexpr std::size_t kRuns = 3;                   ///< of poses, where not all take part
+constexpr double kLikelier = 0.5;                  ///< nats that a component must make the residuals likelier by
 constexpr double kLikelierInOrder = 2.0;
 constexpr std::array kCorrelations{0.5, 0.8, 0.9, 0.95, 0.98, 0.995};
 constexpr std::size_t kSlow = 2;  ///< of these, the last: those of what heat does
 constexpr std::array kVariances{0.01, 0.1, 1.0, 10.0, 100.0};
 
-/// The poses of a field that take part: all, or as many as kMostRows allow, in kRuns runs.
+/// The poses of a field that take part: all, or as many as kMostLikelihoodRows allow, in kRuns runs.
 std::vector<std::size_t> taking_part(const NoiseRows& rows) {
   const std::size_t poses = rows.group.size();
   const double rows_of_pose =
       static_cast<double>(rows.residual.size()) / static_cast<double>(std::max<std::size_t>(poses, 1));
-  const auto most = static_cast<std::size_t>(static_cast<double>(kMostRows) / std::max(rows_of_pose, 1.0));
+  const auto most = static_cast<std::size_t>(static_cast<double>(kMostLikelihoodRows) / std::max(rows_of_pose, 1.0));
   std::vector<std::size_t> taken;
   for (std::size_t i = 0; i < poses; ++i) {
     const std::size_t length = most / kRuns, run = i * kRuns / poses, begin = (run * poses + kRuns - 1) / kRuns;
@@ -43,7 +43,7 @@ std::vector<std::size_t> taking_part(const NoiseRows& rows) {
 }
 
 /// The smallest value of a function of a positive number, over kVariances and between the best one's neighbours.
-double likeliest(const std::function<double(double)>& minus_twice_log) {
+double likeliest_variance(const std::function<double(double)>& minus_twice_log) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < kVariances.size(); ++i) {
@@ -81,7 +81,7 @@ class Components {
     std::array<double, 3> trial = variances;
     trial[component] = 0.0;
     const double without = likelihood_.minus_twice_log(trial);
-    trial[component] = likeliest([&](double variance) {
+    trial[component] = likeliest_variance([&](double variance) {
       trial[component] = variance;
       return likelihood_.minus_twice_log(trial);
     });
@@ -188,7 +188,7 @@ std::vector<Eigen::Index> slow_first(const SmoothCorrections& smooth) {
 }
 
 /// The columns that the model may move in, among the declared ones and the smooth terms behind them.
-std::vector<Eigen::Index> columns_of(const Linearization& linearization, const SmoothCorrections& smooth) {
+std::vector<Eigen::Index> movable_columns(const Linearization& linearization, const SmoothCorrections& smooth) {
   constexpr double kMostOfRows = 0.6;  ///< of the rows of distinct poses
   const auto declared = static_cast<Eigen::Index>(linearization.ids.size());
   std::vector<Eigen::Index> columns(linearization.ids.size());
@@ -266,7 +266,7 @@ DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedMo
   const RowsTaken taken(linearization.fitted);
   if (taken.size() == 0) return model;
   const RowMatrix columns = beside(linearization.fitted.declared, model.smooth.columns(linearization.fitted));
-  const std::vector<Eigen::Index> moving = columns_of(linearization, model.smooth);
+  const std::vector<Eigen::Index> moving = movable_columns(linearization, model.smooth);
   NoiseRows rows{
       .columns = taken.select(columns(Eigen::all, moving)),
       .residual = taken.select(linearization.fitted.residual + at_rest(columns, moving, model.smooth)),

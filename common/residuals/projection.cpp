@@ -22,7 +22,7 @@ Eigen::MatrixXd orthonormaliser(const Eigen::MatrixXd& factor) {
   return scale.asDiagonal() * PivotedQr(factor * scale.asDiagonal(), kDependent).to_basis();
 }
 
-void append(RowMatrix& to, const RowMatrix& columns) {
+void append_columns(RowMatrix& to, const RowMatrix& columns) {
   to.conservativeResize(Eigen::NoChange, to.cols() + columns.cols());
   to.rightCols(columns.cols()) = columns;
 }
@@ -94,9 +94,9 @@ void Projection::add(const Trial& trial) {
   residual_ -= fitted * share;
   validation_residual_ -= validation * share;
   prior_residual_ -= prior * share;
-  append(basis_, fitted);
-  append(validation_basis_, validation);
-  append(prior_basis_, prior);
+  append_columns(basis_, fitted);
+  append_columns(validation_basis_, validation);
+  append_columns(prior_basis_, prior);
 }
 
 }  // namespace demecal::inline residuals

@@ -21,14 +21,14 @@ constexpr int kHighestDegree = 8;
 constexpr int kHighestHarmonic = 5;
 constexpr double kGone = 1e8;  ///< belief in zero, in scaled units, of a term that is out for good
 
-Tree times(double factor, const Tree& tree) {
+Tree scaled_tree(double factor, const Tree& tree) {
   return apply(Primitive::multiply, constant_tree(factor), tree);
 }
 
 /// (theta - middle) * (1 / half): from -1 to 1 over the range.
 Tree unit_variable(const Interval& range) {
   const double middle = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
-  return times(1.0 / half, apply(Primitive::subtract, variable_tree(0), constant_tree(middle)));
+  return scaled_tree(1.0 / half, apply(Primitive::subtract, variable_tree(0), constant_tree(middle)));
 }
 
 /// Legendre polynomial of `degree` in `t` by Bonnet's recurrence on its coefficients, as a Horner scheme.
@@ -59,7 +59,7 @@ void add_terms(SmoothCorrections& smooth, int joint, const Interval& range, bool
   if (!offset_declared) add_degree(0);
   add_degree(1);
   for (int n = 1; n <= kHighestHarmonic; ++n) {
-    const Tree angle = n == 1 ? variable_tree(0) : times(n, variable_tree(0));
+    const Tree angle = n == 1 ? variable_tree(0) : scaled_tree(n, variable_tree(0));
     terms.push_back({joint, apply(Primitive::cosine, angle), n, kHighestDegree + n});
     terms.push_back({joint, apply(Primitive::sine, angle), n, kHighestDegree + n});
     add_degree(2 * n);
@@ -99,7 +99,7 @@ double usual_range(std::vector<double> angles) {
   return angles[angles.size() - 1 - beyond] - angles[beyond];
 }
 
-double value_at(const SmoothCorrections& smooth, const SmoothTerm& term, double theta) {
+double smooth_term_value(const SmoothCorrections& smooth, const SmoothTerm& term, double theta) {
   const auto joint = static_cast<std::size_t>(term.joint);
   const double inside =
       std::clamp(smooth.branches[joint](theta), smooth.ranges[joint].lower, smooth.ranges[joint].upper);
@@ -161,7 +161,7 @@ std::vector<JointCorrection> SmoothCorrections::corrections() const {
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const double coefficient = coefficients[static_cast<Eigen::Index>(i)];
       if (terms[i].joint != static_cast<int>(joint) || coefficient == 0.0) continue;
-      const Tree part = times(coefficient, terms[i].formula);
+      const Tree part = scaled_tree(coefficient, terms[i].formula);
       sum = sum.empty() ? part : apply(Primitive::add, sum, part);
     }
     if (sum.empty()) continue;
@@ -183,7 +183,7 @@ RowMatrix SmoothCorrections::columns(const ResidualField& field) const {
     const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
     const JointVector& joints = field.states[pose].joints();
     for (std::size_t i = 0; i < terms.size(); ++i) {
-      const double value = value_at(*this, terms[i], joints[terms[i].joint]);
+      const double value = smooth_term_value(*this, terms[i], joints[terms[i].joint]);
       columns.block(first, static_cast<Eigen::Index>(i), count, 1) =
           value * field.motions.block(first, motion_column(terms[i].joint, kTurnAboutZ), count, 1);
     }

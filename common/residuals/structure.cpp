@@ -130,7 +130,7 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
 }
 
 /// Of some poses, one after another.
-std::vector<Eigen::Index> rows_of(const ResidualField& field, const std::vector<std::size_t>& poses) {
+std::vector<Eigen::Index> row_indices(const ResidualField& field, const std::vector<std::size_t>& poses) {
   std::vector<Eigen::Index> rows;
   for (const std::size_t pose : poses)
     for (Eigen::Index row = field.first_row[pose]; row < field.first_row[pose + 1]; ++row) rows.push_back(row);
@@ -185,7 +185,7 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   if (poses.size() < 4) return 1.0;
   const std::vector<Pairs> all = circumstances(field, poses, chain);
   if (all.empty()) return 1.0;
-  const std::vector<Eigen::Index> rows = rows_of(field, poses);
+  const std::vector<Eigen::Index> rows = row_indices(field, poses);
   const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual()(rows), chain), all);
   const NullNoise noise(field, model);
   Eigen::MatrixXd null(seen.size(), draws);

@@ -13,8 +13,8 @@
 namespace demecal::inline scheduling {
 namespace {
 
-constexpr std::chrono::milliseconds kTick{100};
-constexpr std::chrono::milliseconds kShutdownTimeout{2000};
+constexpr std::chrono::milliseconds kRunTick{100};
+constexpr std::chrono::milliseconds kRunShutdownTimeout{2000};
 /// How long what the last owner of an island still had to report may be on its way.
 constexpr std::chrono::milliseconds kLateGrace{500};
 constexpr std::chrono::milliseconds kDrainTimeout = kLateGrace;
@@ -66,11 +66,11 @@ RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patien
   last_news_ = last_worker;
   assign_islands();
   while (!state_.all_finished() || waits_for_history()) {
-    if (const std::optional<Message> message = transport_.receive(kTick)) receive(*message);
+    if (const std::optional<Message> message = transport_.receive(kRunTick)) receive(*message);
     assign_islands();
     const Clock::time_point now = Clock::now();
     if (assignment_.has_workers()) last_worker = now;
-    if (now - last_tick >= kTick) {
+    if (now - last_tick >= kRunTick) {
       renew_assignments();
       quarantine_stalled(patience.idle);
       end_quarantines(now);
@@ -93,7 +93,7 @@ bool EvolutionRun::waits_for_history() {
 void EvolutionRun::drain_final_messages() {
   const Clock::time_point deadline = Clock::now() + kDrainTimeout;
   while (Clock::now() < deadline) {
-    const std::optional<Message> message = transport_.receive(kTick);
+    const std::optional<Message> message = transport_.receive(kRunTick);
     if (!message) return;
     receive(*message);
   }
@@ -101,7 +101,7 @@ void EvolutionRun::drain_final_messages() {
 
 void EvolutionRun::end(Control::State state) {
   transport_.publish(Control{state_.data().run, state, state_.data().job});
-  if (state != Control::State::finished) transport_.flush(kShutdownTimeout);
+  if (state != Control::State::finished) transport_.flush(kRunShutdownTimeout);
 }
 
 void EvolutionRun::receive(const Message& message) {

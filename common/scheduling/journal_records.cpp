@@ -44,7 +44,7 @@ std::optional<std::uint32_t> take_number(std::string_view& bytes) {
   return number_of(*taken);
 }
 
-std::optional<JobIdentity> identity_of(std::string_view content) {
+std::optional<JobIdentity> parse_identity(std::string_view content) {
   std::istringstream lines{std::string(content)};
   JobIdentity identity;
   lines >> identity.data_sha256 >> identity.job_sha256 >> identity.seed >> identity.asynchronous >> identity.version;
@@ -61,7 +61,7 @@ class Reading {
     const auto kind = take_off(content, 1);
     if (!kind) return false;
     if (kind->front() == kIdentity) {
-      job_.identity = identity_of(content);
+      job_.identity = parse_identity(content);
       return job_.identity.has_value();
     }
     const auto evolution = take_number(content);

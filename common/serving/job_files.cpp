@@ -78,7 +78,7 @@ Json members(const Json& from, std::initializer_list<const char*> keys) {
   return found;
 }
 
-Json row(const std::string& job, const std::string& text) {
+Json report_row(const std::string& job, const std::string& text) {
   const Json report = Json::parse(text, nullptr, false);
   if (!report.is_object() || !report.contains("error_mm")) return {{"job", job}, {"readable", false}};
   Json made{{"job", job}, {"readable", true}};
@@ -96,7 +96,7 @@ Json row(const std::string& job, const std::string& text) {
 
 std::string comparison_text(const std::vector<std::pair<std::string, std::string>>& reports) {
   Json rows = Json::array();
-  for (const auto& [job, text] : reports) rows.push_back(row(job, text));
+  for (const auto& [job, text] : reports) rows.push_back(report_row(job, text));
   return Json{{"demecal_jobs_comparison", 1}, {"jobs", std::move(rows)}}.dump() + '\n';
 }
 

@@ -13,12 +13,12 @@ namespace {
 constexpr std::size_t kLongestName = 64;
 constexpr int kDone = 0, kInterrupted = 130;  // exit codes of `demecal`
 
-constexpr std::array<std::pair<JobState, const char*>, 6> kStates{{{JobState::ready, "ready"},
-                                                                   {JobState::waiting, "waiting"},
-                                                                   {JobState::running, "running"},
-                                                                   {JobState::done, "done"},
-                                                                   {JobState::failed, "failed"},
-                                                                   {JobState::interrupted, "interrupted"}}};
+constexpr std::array<std::pair<JobState, const char*>, 6> kJobStates{{{JobState::ready, "ready"},
+                                                                      {JobState::waiting, "waiting"},
+                                                                      {JobState::running, "running"},
+                                                                      {JobState::done, "done"},
+                                                                      {JobState::failed, "failed"},
+                                                                      {JobState::interrupted, "interrupted"}}};
 
 bool is_letter_or_digit(char letter) {
   return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9');
@@ -37,7 +37,7 @@ bool is_plain_name(std::string_view name) {
 }
 
 std::string to_string(JobState state) {
-  for (const auto& [known, word] : kStates) {
+  for (const auto& [known, word] : kJobStates) {
     if (known == state) return word;
   }
   DEMECAL_CHECK(false, "state=" << static_cast<int>(state));
@@ -58,7 +58,7 @@ JobRecord parse_record(const std::string& text) {
   if (!read.is_object()) return {};
   JobRecord record;
   const auto state = read.find("state");
-  for (const auto& [known, word] : kStates) {
+  for (const auto& [known, word] : kJobStates) {
     if (state != read.end() && *state == word) record.state = is_queued(known) ? JobState::interrupted : known;
   }
   const auto number = [&](const char* key) {

@@ -33,18 +33,18 @@ constexpr double kStartSpread = 0.4;  ///< rad or m about home
 constexpr double kNearSingular = 0.08;
 constexpr double kBoxTolerance_m = 1e-9;
 
-using Range = std::array<double, 2>;
+using JointRange = std::array<double, 2>;
 
-std::vector<Range> limits(const Chain& chain) {
-  std::vector<Range> ranges;
+std::vector<JointRange> limits(const Chain& chain) {
+  std::vector<JointRange> ranges;
   for (const Joint& joint : chain.joints) ranges.push_back({joint.lower, joint.upper});
   return ranges;
 }
 
-JointVector random_joints(const std::vector<Range>& ranges, RandomStream& random) {
+JointVector random_joints(const std::vector<JointRange>& ranges, RandomStream& random) {
   JointVector q(static_cast<Eigen::Index>(ranges.size()));
   for (Eigen::Index i = 0; i < q.size(); ++i) {
-    const Range& range = ranges[static_cast<std::size_t>(i)];
+    const JointRange& range = ranges[static_cast<std::size_t>(i)];
     q[i] = random.real(range[0], range[1]);
   }
   return q;
@@ -58,7 +58,7 @@ Eigen::Vector3d random_vector(const Eigen::Vector3d& lower, const Eigen::Vector3
 
 /// The same stance with every revolute joint turned to within half a turn of home, and on by a whole turn where only
 /// that meets its limits; nothing where no turn does.
-std::optional<JointVector> within_limits(const Chain& chain, JointVector q, const JointVector& home) {
+std::optional<JointVector> turned_into_limits(const Chain& chain, JointVector q, const JointVector& home) {
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
     if (is_revolute(joint)) {
@@ -100,7 +100,7 @@ std::optional<JointVector> reach(const Scenario& scenario, const Eigen::Isometry
     const JointVector start = attempt == 0 ? scenario.home : random_start(scenario, random);
     const InverseSolution found = inverse(tool_pose, target, start);
     if (found.status != InverseStatus::converged) continue;
-    const std::optional<JointVector> joints = within_limits(chain, found.q, scenario.home);
+    const std::optional<JointVector> joints = turned_into_limits(chain, found.q, scenario.home);
     // Asked again where it stands, the solver tells how near to singular that is.
     if (joints && inverse(tool_pose, target, *joints).smallest_singular >= kNearSingular) return joints;
   }
@@ -135,7 +135,7 @@ JointVector pose_in_box(const Scenario& scenario, RandomStream& random) {
 JointVector joints_into_box(const Scenario& scenario, RandomStream& random) {
   const Eigen::Array3d lower = scenario.box_corner_m.array() - kBoxTolerance_m;
   const Eigen::Array3d upper = (scenario.box_corner_m + scenario.box_size_m).array() + kBoxTolerance_m;
-  const std::vector<Range> ranges = limits(scenario.robot.chain);
+  const std::vector<JointRange> ranges = limits(scenario.robot.chain);
   for (int attempt = 0; attempt < kJointDraws; ++attempt) {
     const JointVector q = random_joints(ranges, random);
     const Eigen::Array3d point = tool_position(scenario.robot.chain, q).array();
@@ -150,7 +150,7 @@ JointVector joints_into_box(const Scenario& scenario, RandomStream& random) {
 
 std::vector<JointVector> draw_poses(const Scenario& scenario, int count, RandomStream& random) {
   const Chain& chain = scenario.robot.chain;
-  const std::vector<Range> ranges = scenario.joint_ranges.empty() ? limits(chain) : scenario.joint_ranges;
+  const std::vector<JointRange> ranges = scenario.joint_ranges.empty() ? limits(chain) : scenario.joint_ranges;
   std::vector<JointVector> poses;
   for (int pose = 0; pose < count; ++pose) {
     poses.push_back(scenario.by_joints ? random_joints(ranges, random)

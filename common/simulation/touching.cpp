@@ -18,7 +18,7 @@ namespace {
 constexpr double kThere_m = 1e-9;
 constexpr double kStep = 1e-6;        ///< of difference quotients, rad or m
 constexpr double kLongestStep = 0.3;  ///< rad or m
-constexpr int kMostSteps = 60;
+constexpr int kMostContactSteps = 60;
 constexpr int kMostStarts = 200;
 
 Eigen::Vector3d point_at(const SimulatedRobot& robot, const Visit& visit) {
@@ -40,7 +40,7 @@ Eigen::Matrix3Xd slopes_at(const SimulatedRobot& robot, const Visit& visit) {
 std::optional<Visit> led_to(const SimulatedRobot& robot, const Eigen::Vector3d& goal, Visit visit,
                             const JointVector& from) {
   constexpr double kDamping = 1e-8;  ///< m^2
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostContactSteps; ++step) {
     visit.approach = signs_of_move(from, visit.commanded);
     const Eigen::Vector3d off = goal - point_at(robot, visit);
     if (off.norm() < kThere_m) return visit;

@@ -13,7 +13,7 @@
 namespace demecal::inline staubli_kawasaki {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\n";
+constexpr std::string_view kXmlSpaces = " \t\r\n";
 
 struct Tag {
   std::string_view name{};
@@ -49,9 +49,9 @@ class TagReader {
   std::size_t attribute(std::size_t begin, std::size_t at, Tag& made) const {
     const std::size_t end = std::min(bytes_.find_first_of("= \t\r\n/>", at), bytes_.size());
     const std::string name(bytes_.substr(at, end - at));
-    const std::size_t sign = std::min(bytes_.find_first_not_of(kBlanks, end), bytes_.size());
+    const std::size_t sign = std::min(bytes_.find_first_not_of(kXmlSpaces, end), bytes_.size());
     if (sign >= bytes_.size() || bytes_[sign] != '=') return std::max(end, at + 1);
-    const std::size_t quote = std::min(bytes_.find_first_not_of(kBlanks, sign + 1), bytes_.size());
+    const std::size_t quote = std::min(bytes_.find_first_not_of(kXmlSpaces, sign + 1), bytes_.size());
     if (quote >= bytes_.size() || (bytes_[quote] != '"' && bytes_[quote] != '\''))
       text_.fail(at, name.size(), "must have a value in quotes");
     const std::size_t close = bytes_.find(bytes_[quote], quote + 1);
@@ -66,7 +66,7 @@ class TagReader {
 
 /// Where the code that begins at `begin` ends: before </Code>, and behind what stands in a CDATA section.
 std::size_t end_of_code(std::string_view bytes, std::size_t begin) {
-  const std::size_t section = bytes.find_first_not_of(kBlanks, begin);
+  const std::size_t section = bytes.find_first_not_of(kXmlSpaces, begin);
   if (section < bytes.size() && bytes.substr(section).starts_with("<![CDATA[")) begin = bytes.find("]]>", section);
   return std::min(bytes.find("</Code>", std::min(begin, bytes.size())), bytes.size());
 }

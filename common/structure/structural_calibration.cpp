@@ -30,7 +30,7 @@ bool is_fitter(const Structure& a, const Structure& b) {
   return a.genes < b.genes;
 }
 
-std::vector<std::size_t> spread(const std::vector<std::size_t>& poses, std::size_t most) {
+std::vector<std::size_t> evenly_chosen(const std::vector<std::size_t>& poses, std::size_t most) {
   if (poses.size() <= most) return poses;
   std::vector<std::size_t> chosen;
   for (std::size_t i = 0; i < most; ++i) chosen.push_back(poses[i * poses.size() / most]);
@@ -118,7 +118,7 @@ std::optional<Shorter> without_one(const Genome& structure, StructureEvaluator& 
   return best;
 }
 
-Genome shortened(Genome structure, StructureEvaluator& evaluate, int rows) {
+Genome shortened_structure(Genome structure, StructureEvaluator& evaluate, int rows) {
   const double price = 1.0 + 2.0 / std::max(1, rows);
   while (const std::optional<Shorter> shorter = without_one(structure, evaluate)) {
     if (shorter->selection_cost > price * evaluate(structure)) break;
@@ -127,7 +127,7 @@ Genome shortened(Genome structure, StructureEvaluator& evaluate, int rows) {
   return structure;
 }
 
-std::vector<ParameterId> ids_of(const DataSet& data, const DeclaredModel& declared) {
+std::vector<ParameterId> registration_ids(const DataSet& data, const DeclaredModel& declared) {
   return free_parameters(data, {.registration = declared.registration, .tool = declared.tool});
 }
 
@@ -151,8 +151,8 @@ Eigen::Index column_of(const ParameterId& id, const StructureFreedom& freedom) {
   return (freedom.base ? 6 : 0) + freedom.tool_size() * tool + (id.kind == Kind::tool_rotation ? 3 : 0) + id.index;
 }
 
-std::vector<ParameterEstimate> estimates_of(const std::vector<ParameterId>& ids, const StructureProblem& problem,
-                                            const StructureFit& fit, const CorrectedRobot& robot) {
+std::vector<ParameterEstimate> structure_estimates(const std::vector<ParameterId>& ids, const StructureProblem& problem,
+                                                   const StructureFit& fit, const CorrectedRobot& robot) {
   const Eigen::MatrixXd covariance_of_all = covariance(problem, fit);
   const auto n = static_cast<Eigen::Index>(ids.size());
   Eigen::MatrixXd covariance_of_changes(n, n);
@@ -180,8 +180,8 @@ std::vector<ParameterEstimate> estimates_of(const std::vector<ParameterId>& ids,
 StructureFound search_structure(const StructureProblem& problem, const StructureOptions& options, RandomStream& random,
                                 const StructureWatch& watch) {
   StructureProblem searched = problem;
-  searched.fitted = spread(problem.fitted, options.most_poses);
-  searched.selection_poses = spread(problem.selection_poses, options.most_poses);
+  searched.fitted = evenly_chosen(problem.fitted, options.most_poses);
+  searched.selection_poses = evenly_chosen(problem.selection_poses, options.most_poses);
   StructureEvaluator evaluate(searched);
   const double without_genes = evaluate(Genome(problem.start.chain.joints.size()));
   StructurePopulation population(problem.start.chain.size(), options, evaluate, random);
@@ -192,7 +192,8 @@ StructureFound search_structure(const StructureProblem& problem, const Structure
     if (watch && !watch(found.generations, population.best().selection_cost / without_genes)) break;
   }
   const Genome best = expressed(population.best().genome);
-  found.fit = fit_structure(problem, shortened(best, evaluate, rows_in_use(searched, searched.selection_poses)));
+  found.fit =
+      fit_structure(problem, shortened_structure(best, evaluate, rows_in_use(searched, searched.selection_poses)));
   found.evaluations = evaluate.evaluations();
   return found;
 }
@@ -205,14 +206,14 @@ StructuralCalibration calibrate_structure(const DataSet& data, const DeclaredMod
     throw InputError({data.file, 0}, "0",
                      "validation poses are too few: structures are judged on poses that had no part in their fit");
   }
-  const std::vector<ParameterId> ids = ids_of(data, declared);
+  const std::vector<ParameterId> ids = registration_ids(data, declared);
   const StructureProblem problem =
       structure_problem(data, freedom_of(ids), registered, poses_of(data, PoseSet::calibration), selection_poses);
   const StructureFound found = search_structure(problem, options, random, watch);
   StructuralCalibration result;
   result.robot = equivalent_robot(found.fit.arm);
   result.transforms = found_transforms(problem, found.fit);
-  result.estimates = estimates_of(ids, problem, found.fit, result.robot);
+  result.estimates = structure_estimates(ids, problem, found.fit, result.robot);
   result.generations = found.generations;
   result.evaluations = found.evaluations;
   return result;

@@ -18,9 +18,9 @@ namespace demecal::inline structure {
 namespace {
 
 constexpr double kSingular = 1e-6;  // of columns of unit length
-constexpr double kFirstDamping = 1e-6, kMostDamping = 1e3;
-constexpr int kMostSteps = 20;
-constexpr double kSettled = 1e-8;  // of the cost
+constexpr double kDeficientDamping = 1e-6, kHighestDamping = 1e3;
+constexpr int kMostSuccessfulSteps = 20;
+constexpr double kSettledCost = 1e-8;  // of the cost
 
 double row_weight(const StructureProblem& problem, const MeasurementRows& rows, int row) {
   const bool turn = row >= rows.position && row < rows.position + rows.orientation;
@@ -28,24 +28,24 @@ double row_weight(const StructureProblem& problem, const MeasurementRows& rows, 
   return problem.orientation_scale_rad > 0.0 ? 1.0 / problem.orientation_scale_rad : 0.0;
 }
 
-Eigen::VectorXd weights_of(const StructureProblem& problem, const MeasuredPose& pose) {
+Eigen::VectorXd row_weights(const StructureProblem& problem, const MeasuredPose& pose) {
   const MeasurementRows rows = rows_of(pose);
   Eigen::VectorXd weights(rows.total());
   for (int row = 0; row < rows.total(); ++row) weights[row] = row_weight(problem, rows, row);
   return weights;
 }
 
-double cost_of(const StructureProblem& problem, const StructuredArm& arm, std::span<const std::size_t> poses) {
+double structure_cost(const StructureProblem& problem, const StructuredArm& arm, std::span<const std::size_t> poses) {
   double sum = 0.0;
   for (const std::size_t index : poses) {
     const MeasuredPose& pose = problem.data.poses[index];
     const Eigen::VectorXd rows = residual(arm.robot, arm.predict(pose.joints, pose.target), problem.data, pose);
-    sum += rows.cwiseProduct(weights_of(problem, pose)).squaredNorm();
+    sum += rows.cwiseProduct(row_weights(problem, pose)).squaredNorm();
   }
   return sum;
 }
 
-struct Rows {
+struct StructureRows {
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residual;
 };
@@ -68,16 +68,17 @@ double prior_cost(const StructuredArm& arm, const Eigen::VectorXd& weights) {
 }
 
 /// The poses' rows, and below them the genes' priors.
-Rows rows_at(const StructureProblem& problem, const StructuredArm& arm, int numbers, const Eigen::VectorXd& prior) {
+StructureRows structure_rows(const StructureProblem& problem, const StructuredArm& arm, int numbers,
+                             const Eigen::VectorXd& prior) {
   Eigen::Index total = 0;
   for (const std::size_t index : problem.fitted) total += rows_of(problem.data.poses[index]).total();
   const Eigen::Index genes = prior.size();
-  Rows rows{Eigen::MatrixXd::Zero(total + genes, numbers), Eigen::VectorXd(total + genes)};
+  StructureRows rows{Eigen::MatrixXd::Zero(total + genes, numbers), Eigen::VectorXd(total + genes)};
   Eigen::Index next = 0;
   for (const std::size_t index : problem.fitted) {
     const MeasuredPose& pose = problem.data.poses[index];
     const StructureMotion motion = motion_of(arm, problem.freedom, pose.joints, pose.target);
-    const Eigen::VectorXd weights = weights_of(problem, pose);
+    const Eigen::VectorXd weights = row_weights(problem, pose);
     const Eigen::Index count = weights.size();
     rows.jacobian.middleRows(next, count) =
         weights.asDiagonal() * (measurement_jacobian(arm.robot, motion.predicted, problem.data, pose) * motion.twists);
@@ -102,7 +103,7 @@ Eigen::VectorXd scale_columns(Eigen::MatrixXd& jacobian) {
 }
 
 /// (J^T J + damping I)^-1 J^T r, by the decomposition of J with damped rows below it.
-Eigen::VectorXd damped_step(const Rows& rows, double damping) {
+Eigen::VectorXd damped_qr_step(const StructureRows& rows, double damping) {
   const Eigen::Index n = rows.jacobian.cols(), m = rows.jacobian.rows();
   Eigen::MatrixXd tall(m + n, n);
   tall << rows.jacobian, std::sqrt(damping) * Eigen::MatrixXd::Identity(n, n);
@@ -118,18 +119,18 @@ class StructureSteps {
 
   std::optional<double> linearize(double& damping) {
     prior_ = prior_weights(problem_, fit_);
-    rows_ = rows_at(problem_, fit_.arm, fit_.numbers, prior_);
+    rows_ = structure_rows(problem_, fit_.arm, fit_.numbers, prior_);
     lengths_ = scale_columns(rows_.jacobian);
     qr_ = PivotedQr(rows_.jacobian, kSingular);
     fit_.rank = static_cast<int>(qr_.rank());
-    damping = fit_.rank < fit_.numbers ? kFirstDamping : 0.0;
+    damping = fit_.rank < fit_.numbers ? kDeficientDamping : 0.0;
     return fit_.cost + prior_cost(fit_.arm, prior_);
   }
 
   std::optional<double> try_step(double damping) {
-    const Eigen::VectorXd step = damping > 0.0 ? damped_step(rows_, damping) : qr_.solve(rows_.residual);
+    const Eigen::VectorXd step = damping > 0.0 ? damped_qr_step(rows_, damping) : qr_.solve(rows_.residual);
     tried_ = changed(fit_.arm, problem_.freedom, step.cwiseQuotient(lengths_));
-    tried_cost_ = cost_of(problem_, tried_, problem_.fitted);
+    tried_cost_ = structure_cost(problem_, tried_, problem_.fitted);
     return tried_cost_ + prior_cost(tried_, prior_);
   }
 
@@ -142,16 +143,16 @@ class StructureSteps {
   const StructureProblem& problem_;
   StructureFit& fit_;
   Eigen::VectorXd prior_, lengths_;
-  Rows rows_;
+  StructureRows rows_;
   PivotedQr qr_;
   StructuredArm tried_;
   double tried_cost_ = 0.0;
 };
 
-constexpr const char kAxes[] = {'x', 'y', 'z'};
+constexpr const char kGeneAxes[] = {'x', 'y', 'z'};
 
 char axis_of(const Gene& gene) {
-  return kAxes[static_cast<std::size_t>(gene.axis)];
+  return kGeneAxes[static_cast<std::size_t>(gene.axis)];
 }
 
 }  // namespace
@@ -190,24 +191,24 @@ StructureFit fit_structure(const StructureProblem& problem, const Genome& genome
   fit.arm = {problem.start, genome, std::vector<double>(gene_count(genome), 0.0)};
   fit.numbers = problem.freedom.before_genes() + static_cast<int>(gene_count(genome));
   fit.selection_cost = std::numeric_limits<double>::infinity();
-  fit.cost = cost_of(problem, fit.arm, problem.fitted);
+  fit.cost = structure_cost(problem, fit.arm, problem.fitted);
   if (fit.numbers >= rows_in_use(problem, problem.fitted)) return fit;
   if (fit.numbers > 0) {
     StructureSteps steps(problem, fit);
-    levenberg_marquardt(steps, {.max_successful_steps = kMostSteps,
+    levenberg_marquardt(steps, {.max_successful_steps = kMostSuccessfulSteps,
                                 .increase_factor = 100.0,
-                                .min_increased_damping = kFirstDamping,
-                                .max_damping = kMostDamping,
-                                .function_tolerance = kSettled});
+                                .min_increased_damping = kDeficientDamping,
+                                .max_damping = kHighestDamping,
+                                .function_tolerance = kSettledCost});
   }
-  const double selection_cost = cost_of(problem, fit.arm, problem.selection_poses);
+  const double selection_cost = structure_cost(problem, fit.arm, problem.selection_poses);
   fit.solved = std::isfinite(selection_cost) && std::isfinite(fit.cost);
   if (fit.solved) fit.selection_cost = selection_cost;
   return fit;
 }
 
 Eigen::MatrixXd covariance(const StructureProblem& problem, const StructureFit& fit) {
-  Rows rows = rows_at(problem, fit.arm, fit.numbers, prior_weights(problem, fit));
+  StructureRows rows = structure_rows(problem, fit.arm, fit.numbers, prior_weights(problem, fit));
   const Eigen::VectorXd lengths = scale_columns(rows.jacobian);
   const MoorePenroseInverse decomposed = moore_penrose_inverse(rows.jacobian, kSingular);
   const Eigen::MatrixXd inverse = lengths.cwiseInverse().asDiagonal() * decomposed.inverse;

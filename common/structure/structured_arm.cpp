@@ -91,7 +91,7 @@ Eigen::Isometry3d walk_genes(const StructuredArm& arm, const JointVector& comman
       arm.robot.chain, arm.robot.corrected_joints(commanded), [](int, LinkParameter, const Screw&) {}, insert);
 }
 
-void turn(Eigen::Isometry3d& frame, const Eigen::Vector3d& shift, const Eigen::Vector3d& by) {
+void move_frame(Eigen::Isometry3d& frame, const Eigen::Vector3d& shift, const Eigen::Vector3d& by) {
   frame.translation() += shift;
   frame.linear() = rotation_of(by) * frame.linear();
 }
@@ -188,12 +188,12 @@ StructuredArm changed(const StructuredArm& arm, const StructureFreedom& freedom,
   StructuredArm result = arm;
   Eigen::Index next = 0;
   if (freedom.base) {
-    turn(result.robot.sensor_from_base, change.head<3>(), change.segment<3>(3));
+    move_frame(result.robot.sensor_from_base, change.head<3>(), change.segment<3>(3));
     next = 6;
   }
   for (const std::string& target : freedom.tools) {
     const Eigen::Vector3d by = freedom.tool_turns ? change.segment<3>(next + 3) : Eigen::Vector3d::Zero().eval();
-    turn(result.robot.tools.at(target), change.segment<3>(next), by);
+    move_frame(result.robot.tools.at(target), change.segment<3>(next), by);
     next += freedom.tool_size();
   }
   for (double& value : result.values) value += change[next++];

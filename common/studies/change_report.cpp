@@ -90,7 +90,7 @@ Json cause_json(const ChangeCause& cause, const Robot& robot) {
 }
 
 /// With their lines, since names may repeat.
-std::string left_out(const ChangeReport& change, const DataSet& data) {
+std::string left_out_line(const ChangeReport& change, const DataSet& data) {
   std::vector<std::string> names;
   for (const std::size_t pose : change.outliers)
     names.push_back(fmt::format("{} (line {})", data.poses[pose].pose_id, data.poses[pose].line));
@@ -154,7 +154,7 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
   text += fmt::format("; {} poses{}, noise {:.3g} mm per axis\n", change.poses,
                       change.measurements > change.poses ? fmt::format(" measured {} times", change.measurements) : "",
                       millimetres(change.noise_m));
-  if (!change.outliers.empty()) text += left_out(change, data);
+  if (!change.outliers.empty()) text += left_out_line(change, data);
   text += "  what these poses find nine times in ten:\n";
   for (const ChangeCause& cause : change.tried) {
     const auto [unit, per_inside] = shown_unit(cause.unit);
@@ -166,7 +166,7 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
 
 namespace {
 
-const std::vector<std::string>& columns() {
+const std::vector<std::string>& history_columns() {
   static const std::vector<std::string> all{"date",  "verdict", "strain", "strain_limit", "error_mm",
                                             "poses", "cause",   "data",   "model"};
   return all;
@@ -192,7 +192,7 @@ CheckRecord check_record(const ChangeReport& change, const DataSet& data, const 
 
 std::string check_history_csv(const std::vector<CheckRecord>& records) {
   CsvTable table;
-  table.columns = columns();
+  table.columns = history_columns();
   for (const CheckRecord& one : records)
     table.rows.push_back({0,
                           {on_one_line(one.date), one.verdict, number_text(one.strain), number_text(one.strain_limit),
@@ -207,7 +207,8 @@ std::vector<CheckRecord> read_check_history(const std::string& text, const std::
   std::istringstream in(text);
   const CsvTable table = read_csv(in, file);
   std::vector<TableColumn> read;
-  for (const std::string& column : columns()) read.emplace_back(table, ColumnName{column, {file, table.header_line}});
+  for (const std::string& column : history_columns())
+    read.emplace_back(table, ColumnName{column, {file, table.header_line}});
   for (const CsvRow& row : table.rows)
     records.push_back({.date = read[0].text(row),
                        .model = read[8].text(row),

@@ -62,7 +62,7 @@ std::vector<std::string> variables_of(const ExpressionNode& formula) {
   return names;
 }
 
-std::string list(const std::vector<std::string>& texts, const std::string& before = "") {
+std::string comma_separated(const std::vector<std::string>& texts, const std::string& before = "") {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : ", ") + before + text;
   return all;
@@ -132,7 +132,7 @@ class CodeFile {
 std::string CodeFile::equations() {
   std::ostringstream out;
   for (const Expression formula : formulas()) {
-    out << formula->name << '(' << list(variables_of(*formula)) << ") = " << formula_text(formula) << '\n';
+    out << formula->name << '(' << comma_separated(variables_of(*formula)) << ") = " << formula_text(formula) << '\n';
   }
   const Steps joints = plan_steps(listing_.actual, printer_, "s");
   out << assignments(joints, "", "\n");
@@ -152,8 +152,8 @@ std::string CodeFile::c() {
   std::ostringstream out;
   out << remarks("// ") << "#include <math.h>\n\n" << support_functions_in(&SupportFunction::c);
   for (const Expression formula : formulas()) {
-    out << "static double " << formula->name << '(' << list(variables_of(*formula), "double ") << ") {\n  return "
-        << formula_text(formula) << ";\n}\n\n";
+    out << "static double " << formula->name << '(' << comma_separated(variables_of(*formula), "double ")
+        << ") {\n  return " << formula_text(formula) << ";\n}\n\n";
   }
   for (std::size_t i = 0; i < joints(); ++i) {
     const Steps steps = plan_steps({listing_.actual[i]}, printer_);
@@ -182,8 +182,8 @@ std::string CodeFile::python() {
     support_functions.insert(at, "\n");
   out << support_functions;
   for (const Expression formula : formulas()) {
-    out << "def " << formula->name << '(' << list(variables_of(*formula)) << "):\n    return " << formula_text(formula)
-        << "\n\n\n";
+    out << "def " << formula->name << '(' << comma_separated(variables_of(*formula)) << "):\n    return "
+        << formula_text(formula) << "\n\n\n";
   }
   for (std::size_t i = 0; i < joints(); ++i) {
     const Steps steps = plan_steps({listing_.actual[i]}, printer_);
@@ -200,7 +200,7 @@ std::string CodeFile::python() {
   out << assignments(steps, "    ", "\n") << "    return [\n";
   for (std::size_t row = 0; row < 4; ++row) {
     const auto first = steps.results.begin() + static_cast<std::ptrdiff_t>(4 * row);
-    out << "        [" << list({first, first + 4}) << "],\n";
+    out << "        [" << comma_separated({first, first + 4}) << "],\n";
   }
   out << "    ]\n";
   return out.str();
@@ -221,14 +221,14 @@ std::string CodeFile::matlab() {
   for (std::size_t i = 0; i < pose_.size(); ++i) {
     out << "  pose(" << i / 4 + 1 << ", " << i % 4 + 1 << ") = " << steps.results[i] << ";\n";
   }
-  out << "  h = [" << list(actual) << "];\nend\n\n";
+  out << "  h = [" << comma_separated(actual) << "];\nend\n\n";
   for (std::size_t i = 0; i < joints(); ++i) {
     const Steps of_joint = plan_steps({listing_.actual[i]}, printer_);
     out << "function x = h" << number_of(i) << "(q" << number_of(i) << ")\n"
         << assignments(of_joint, "  ", ";\n") << "  x = " << of_joint.results[0] << ";\nend\n\n";
   }
   for (const Expression formula : formulas()) {
-    out << "function x = " << formula->name << '(' << list(variables_of(*formula))
+    out << "function x = " << formula->name << '(' << comma_separated(variables_of(*formula))
         << ")\n  x = " << formula_text(formula) << ";\nend\n\n";
   }
   out << support_functions_in(&SupportFunction::matlab);

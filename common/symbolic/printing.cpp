@@ -21,7 +21,7 @@ std::string in_parentheses_below(Precedence least, const InfixText& part) {
   return part.precedence < least ? '(' + part.text + ')' : part.text;
 }
 
-std::string join(const std::vector<std::string>& texts, const std::string& between) {
+std::string with_separator(const std::vector<std::string>& texts, const std::string& between) {
   std::string all;
   for (const std::string& text : texts) all += (all.empty() ? "" : between) + text;
   return all;
@@ -99,7 +99,8 @@ class ExpressionWriter {
     const bool formula = expression->function == Function::formula;
     std::vector<std::string> arguments;
     for (const Part& argument : expression->parts) arguments.push_back(part(argument.first).text);
-    return {(formula ? expression->name : printer_.name(expression->function)) + '(' + join(arguments, ", ") + ')'};
+    return {(formula ? expression->name : printer_.name(expression->function)) + '(' + with_separator(arguments, ", ") +
+            ')'};
   }
 
  private:
@@ -131,9 +132,9 @@ class ExpressionWriter {
     for (const auto& [base, exponent] : parts) {
       (exponent > 0.0 ? above : below).push_back(power(base, static_cast<int>(std::abs(exponent))));
     }
-    std::string text = above.empty() ? printer_.number(1.0) : join(above, "*");
+    std::string text = above.empty() ? printer_.number(1.0) : with_separator(above, "*");
     if (!below.empty())
-      text += '/' + (below.size() == 1 && !has_operator(below[0]) ? below[0] : '(' + join(below, "*") + ')');
+      text += '/' + (below.size() == 1 && !has_operator(below[0]) ? below[0] : '(' + with_separator(below, "*") + ')');
     return {text,
             above.size() == 1 && below.empty() && !has_operator(above[0]) ? Precedence::whole : Precedence::product};
   }
@@ -148,7 +149,7 @@ class ExpressionWriter {
         return text + "**" + digits;
       case CodeLanguage::c:
         if (exponent > kLongestPower) return "pow(" + part(base).text + ", " + digits + ')';
-        return join(std::vector<std::string>(static_cast<std::size_t>(exponent), text), "*");
+        return with_separator(std::vector<std::string>(static_cast<std::size_t>(exponent), text), "*");
       default:
         return text + '^' + digits;
     }

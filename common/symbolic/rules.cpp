@@ -95,14 +95,15 @@ std::optional<Expression> folded(Function function, const std::vector<Expression
 
 namespace {
 
-constexpr double kRight = 0.5 * std::numbers::pi;
+constexpr double kRightAngle = 0.5 * std::numbers::pi;
 /// Angles of text and files are rounded: this near a multiple of a right angle (rad) they are meant to be it.
-constexpr double kRounding = 4e-16;
+constexpr double kRightAngleRounding = 4e-16;
 
 /// How many right angles a constant angle is, where it is a whole number of them.
 std::optional<int> right_angles(double angle) {
-  const double count = std::round(angle / kRight);
-  if (!(std::abs(count) <= 1000.0) || std::abs(angle - count * kRight) > kRounding * std::max(1.0, std::abs(angle))) {
+  const double count = std::round(angle / kRightAngle);
+  if (!(std::abs(count) <= 1000.0) ||
+      std::abs(angle - count * kRightAngle) > kRightAngleRounding * std::max(1.0, std::abs(angle))) {
     return std::nullopt;
   }
   return (static_cast<int>(count) % 4 + 4) % 4;
@@ -122,7 +123,7 @@ struct SplitFactors {
   std::vector<Part> shared, first, second;
 };
 
-SplitFactors split_factors(Expression first, Expression second) {
+SplitFactors split_common_factors(Expression first, Expression second) {
   SplitFactors split;
   std::vector<Part> of_second = factors_of(second);
   for (const auto& [base, exponent] : factors_of(first)) {
@@ -222,7 +223,7 @@ std::optional<Expression> simplified_trigonometric(Function function, Expression
 }
 
 std::optional<Expression> joined(Expression first, Expression second, double ratio) {
-  const SplitFactors both = split_factors(first, second);
+  const SplitFactors both = split_common_factors(first, second);
   Algebra& algebra = first.algebra();
   std::optional<Expression> value = joined_squares(both.first, both.second, ratio, algebra);
   if (!value && ratio > 0.0) value = joined_squares(both.second, both.first, ratio, algebra);

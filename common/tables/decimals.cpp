@@ -17,7 +17,7 @@ bool is_digits(std::string_view text) {
 struct Decimals {
   std::string_view before, after;
 };
-std::optional<Decimals> decimals_of(std::string_view field, char sign) {
+std::optional<Decimals> digits_about(std::string_view field, char sign) {
   if (!field.empty() && (field.front() == '+' || field.front() == '-')) field.remove_prefix(1);
   const std::size_t at = field.find(sign);
   if (at == std::string_view::npos) return std::nullopt;
@@ -57,11 +57,11 @@ char decimal_sign(const std::vector<CsvRow>& rows, const std::string& file) {
   bool surely = false;
   for (const CsvRow& row : rows) {
     for (const std::string& field : row.fields) {
-      if (const auto number = decimals_of(field, ',')) {
+      if (const auto number = digits_about(field, ',')) {
         ++commas;
         if (!comma) comma = NumberPlace{row.line, field};
         surely = surely || !may_group(*number);
-      } else if (decimals_of(field, '.')) {
+      } else if (digits_about(field, '.')) {
         ++points;
         if (!point) point = NumberPlace{row.line, field};
       }

@@ -113,7 +113,8 @@ std::vector<std::size_t> joint_columns(const NamedColumns& named, std::size_t jo
   return {};
 }
 
-std::vector<std::size_t> triple(const NamedColumns& named, std::initializer_list<std::array<const char*, 3>> choices) {
+std::vector<std::size_t> three_columns(const NamedColumns& named,
+                                       std::initializer_list<std::array<const char*, 3>> choices) {
   for (const auto& names : choices) {
     auto columns = named.all_of({names.begin(), names.end()});
     if (!columns.empty()) return columns;
@@ -128,14 +129,14 @@ GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::ve
   for (const std::string& name : joint_names) plain.push_back(plain_name(name));
   if (!plain.empty()) guess.joints = named.all_of(plain);
   if (guess.joints.empty()) guess.joints = joint_columns(named, joints);
-  guess.position = triple(named, {{"x", "y", "z"},
-                                  {"posx", "posy", "posz"},
-                                  {"measuredx", "measuredy", "measuredz"},
-                                  {"xmeasured", "ymeasured", "zmeasured"},
-                                  {"xact", "yact", "zact"},
-                                  {"px", "py", "pz"}});
-  guess.sigma =
-      triple(named, {{"sx", "sy", "sz"}, {"ux", "uy", "uz"}, {"sigmax", "sigmay", "sigmaz"}, {"stdx", "stdy", "stdz"}});
+  guess.position = three_columns(named, {{"x", "y", "z"},
+                                         {"posx", "posy", "posz"},
+                                         {"measuredx", "measuredy", "measuredz"},
+                                         {"xmeasured", "ymeasured", "zmeasured"},
+                                         {"xact", "yact", "zact"},
+                                         {"px", "py", "pz"}});
+  guess.sigma = three_columns(
+      named, {{"sx", "sy", "sz"}, {"ux", "uy", "uz"}, {"sigmax", "sigmay", "sigmaz"}, {"stdx", "stdy", "stdz"}});
   guess.orientation = named.all_of({"qw", "qx", "qy", "qz"});
   guess.approach = named.all_of(numbered_names("s", 1, joints));
   for (const std::string_view stem : {"torque", "tau", "jointtorque"}) {

@@ -50,7 +50,7 @@ void require_used(const std::vector<CsvTable>& tables, const std::vector<JoinKey
   }
 }
 
-std::string left_out_text(std::size_t rows) {
+std::string no_partner_text(std::size_t rows) {
   return rows == 0 ? ""
                    : "; " + std::to_string(rows) + (rows == 1 ? " row has" : " rows have") + " no partner and " +
                          (rows == 1 ? "is" : "are") + " left out";
@@ -97,7 +97,7 @@ JoinedRows join_by_name(const std::vector<CsvTable>& tables, const std::vector<J
   if (joined.rows.empty())
     throw InputError({tables[lead].file, 0}, "",
                      "names no point that the other files name: are they of one measurement?");
-  joined.sentence = std::to_string(joined.rows.size()) + " rows joined by name" + left_out_text(left_out);
+  joined.sentence = std::to_string(joined.rows.size()) + " rows joined by name" + no_partner_text(left_out);
   return joined;
 }
 
@@ -148,7 +148,7 @@ JoinedRows join_by_time(const std::vector<CsvTable>& tables, const std::vector<J
     throw InputError({tables[lead].file, 0}, "",
                      "has no row within " + seconds_text(rule.within_s) + " of another file's");
   joined.sentence = std::to_string(joined.rows.size()) + " rows joined by time, at most " + seconds_text(widest_s) +
-                    " apart" + left_out_text(left_out);
+                    " apart" + no_partner_text(left_out);
   return joined;
 }
 

@@ -34,7 +34,7 @@ bool separates(char c, Delimiter delimiter) {
 }
 
 /// The place after the quoted field that begins the text, with its content; nothing where the quote stays open.
-std::optional<std::pair<std::size_t, std::string>> quoted_field(std::string_view text) {
+std::optional<std::pair<std::size_t, std::string>> unquoted_field(std::string_view text) {
   std::string content;
   for (std::size_t at = 1; at < text.size(); ++at) {
     if (text[at] != '"') {
@@ -53,7 +53,7 @@ std::optional<std::pair<std::size_t, std::string>> quoted_field(std::string_view
 std::string take_field(std::string_view& text, Delimiter delimiter, bool& more) {
   const std::string_view padding = delimiter == Delimiter::tab ? " " : kBlanks;
   text.remove_prefix(std::min(text.find_first_not_of(padding), text.size()));
-  const auto quoted = text.starts_with('"') ? quoted_field(text) : std::nullopt;
+  const auto quoted = text.starts_with('"') ? unquoted_field(text) : std::nullopt;
   std::size_t end = quoted ? quoted->first : 0;
   while (end < text.size() && !separates(text[end], delimiter)) ++end;
   const bool closed = quoted && trimmed(text.substr(quoted->first, end - quoted->first)).empty();

@@ -80,25 +80,21 @@ void require_names(const Headings& headings, const std::vector<CsvRow>& rows, co
                        std::to_string(headings.fields.size()) + " fields");
 }
 
-std::string plural(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
-}
-
 std::string description(const CsvTable& table, const Layout& layout, const Headings& headings,
                         const std::string& encoding) {
   std::string text = layout.delimiter == Delimiter::comma       ? "commas"
                      : layout.delimiter == Delimiter::semicolon ? "semicolons"
                      : layout.delimiter == Delimiter::tab       ? "tabs"
                                                                 : "blanks";
-  text += " between " + plural(layout.width, "column");
+  text += " between " + counted(layout.width, "column");
   text += table.decimal == ',' ? ", decimal commas" : ", decimal points";
   if (!encoding.empty()) text += ", " + encoding;
   if (headings.line == 0) text += ", no headings (columns go by their numbers)";
   if (headings.line > 0) text += ", headings in line " + std::to_string(headings.line);
   if (headings.in_comment) text += " (a comment)";
   if (std::ranges::any_of(table.units, [](const std::string& unit) { return !unit.empty(); })) text += " with units";
-  if (headings.lines_before > 0) text += ", " + plural(headings.lines_before, "line") + " before them left out";
-  return text + ", " + plural(table.rows.size(), "row");
+  if (headings.lines_before > 0) text += ", " + counted(headings.lines_before, "line") + " before them left out";
+  return text + ", " + counted(table.rows.size(), "row");
 }
 
 /// Whether the table is CSV as demecal writes it: its strict reader then says what is wrong with it.

@@ -21,8 +21,8 @@
 namespace demecal::inline terminal {
 namespace {
 
-constexpr std::size_t kLabel = 7;  // "joint 1"
-constexpr std::size_t kGap = 3;    // between islands
+constexpr std::size_t kLabel = 7;      // "joint 1"
+constexpr std::size_t kIslandGap = 3;  // between islands
 constexpr std::size_t kMostBar = 16;
 
 enum class Figure { generation, best, median, diversity, speed, sent, taken, waited, worker };
@@ -86,7 +86,7 @@ class Grid {
   /// Islands side by side.
   std::size_t blocks(const Detail& detail) const {
     const std::size_t room = options_.columns > kLabel + 1 ? options_.columns - kLabel - 1 : 1;
-    return std::clamp<std::size_t>((room + kGap) / (detail.columns(deme_columns_) + kGap), 1, demes());
+    return std::clamp<std::size_t>((room + kIslandGap) / (detail.columns(deme_columns_) + kIslandGap), 1, demes());
   }
   std::size_t rows_per_joint(const Detail& detail) const { return (demes() + blocks(detail) - 1) / blocks(detail); }
   void choose_detail();
@@ -113,7 +113,7 @@ void Grid::choose_detail() {
     if (is_narrow && (options_.lines == 0 || 1 + joints() * rows_per_joint(detail_) <= options_.lines)) break;
   }
   const std::size_t side_by_side = blocks(detail_);
-  const std::size_t taken = kLabel + 1 + side_by_side * (detail_.columns(deme_columns_) + kGap) - kGap;
+  const std::size_t taken = kLabel + 1 + side_by_side * (detail_.columns(deme_columns_) + kIslandGap) - kIslandGap;
   const std::size_t spare = options_.columns > taken ? (options_.columns - taken) / side_by_side : 0;
   detail_.bar += std::min(spare, kMostBar - detail_.bar);
 }
@@ -122,7 +122,7 @@ std::string Grid::heading() const {
   std::string block = right_aligned("", deme_columns_) + " " + left_aligned("", detail_.bar);
   for (const FigureColumn& figure : detail_.figures) block += " " + right_aligned(figure.heading, figure.columns);
   std::string text = left_aligned("", kLabel);
-  for (std::size_t i = 0; i < blocks(detail_); ++i) text += std::string(i == 0 ? 1 : kGap, ' ') + block;
+  for (std::size_t i = 0; i < blocks(detail_); ++i) text += std::string(i == 0 ? 1 : kIslandGap, ' ') + block;
   return styled(text, TextStyle::faint, options_.colours);
 }
 
@@ -182,7 +182,7 @@ std::string Grid::row(std::uint32_t joint, std::uint32_t first_deme) const {
   std::string text = left_aligned(first_deme == 0 ? name : "", kLabel);
   const std::size_t end = std::min(demes(), first_deme + blocks(detail_));
   for (std::size_t deme = first_deme; deme < end; ++deme) {
-    text += std::string(deme == first_deme ? 1 : kGap, ' ') + cell({joint, static_cast<std::uint32_t>(deme)});
+    text += std::string(deme == first_deme ? 1 : kIslandGap, ' ') + cell({joint, static_cast<std::uint32_t>(deme)});
   }
   return text;
 }

@@ -44,7 +44,7 @@ std::vector<Searched> by_kind(const std::vector<NotFoundEntry>& not_found) {
   return kinds;
 }
 
-std::string place(const NotFoundEntry& missing) {
+std::string searched_place(const NotFoundEntry& missing) {
   const std::string where = missing.effect.joint ? fmt::format("joint {}", *missing.effect.joint) : "whole arm";
   const std::string which = missing.effect.distinction();
   return which.empty() ? where : where + ", " + which;
@@ -62,8 +62,9 @@ bool was_added(const Report& report, const std::string& kind) {
 std::string limits_of(const Searched& searched) {
   const auto [least, most] = std::ranges::minmax_element(
       searched.places, {}, [](const NotFoundEntry* missing) { return *missing->smallest_detectable; });
-  if (searched.places.size() == 1) return place(**least) + " below " + limit(**least);
-  return fmt::format("below {} ({}) to {} ({})", limit(**least), place(**least), limit(**most), place(**most));
+  if (searched.places.size() == 1) return searched_place(**least) + " below " + limit(**least);
+  return fmt::format("below {} ({}) to {} ({})", limit(**least), searched_place(**least), limit(**most),
+                     searched_place(**most));
 }
 
 std::string not_found_lines(const Report& report) {

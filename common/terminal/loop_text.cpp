@@ -23,7 +23,7 @@ namespace {
 
 constexpr std::size_t kIndent = 7;          // of what is said of one effect
 constexpr std::size_t kMostHarmonics = 12;  // that take a line each
-constexpr std::size_t kMostRivals = 3;
+constexpr std::size_t kMostNamedRivals = 3;
 constexpr std::size_t kMostRefused = 2;
 constexpr std::size_t kMostNameLetters = 42;
 constexpr std::size_t kMostDiagnoses = 8;  // effects, for each to get its sentence
@@ -42,19 +42,19 @@ bool adds_harmonic(const RoundEntry* round) {
   return is_harmonic(round->effect.kind);
 }
 
-std::string mm(std::optional<double> value) {
+std::string mm_or_dash(std::optional<double> value) {
   return value ? fmt::format("{:.3f}", *value) : "–";
 }
 
-std::string columns(const std::string& number, const std::string& name, const std::string& size, const std::string& p,
-                    const std::string& before, const std::string& after) {
+std::string round_columns(const std::string& number, const std::string& name, const std::string& size,
+                          const std::string& p, const std::string& before, const std::string& after) {
   std::string line = right_aligned(number, 5) + "  " + left_aligned(name, kMostNameLetters) + right_aligned(size, 13) +
                      right_aligned(p, 9) + right_aligned(before, 12);
   return line + (after.empty() ? "" : " -> " + after) + "\n";
 }
 
-std::string heading() {
-  return columns("", "effect added", "size", "p", "validation", "after, mm");
+std::string rounds_heading() {
+  return round_columns("", "effect added", "size", "p", "validation", "after, mm");
 }
 
 /// Rivals that the name of the effect's class does not hold already: that holds the nearest of each kind and joint.
@@ -79,11 +79,11 @@ std::string rivals_line(const RoundEntry& round) {
   const std::vector<const RivalEntry*> rivals = rivals_beyond_class(round);
   if (rivals.empty()) return {};
   std::string names;
-  for (std::size_t i = 0; i < std::min(rivals.size(), kMostRivals); ++i) {
+  for (std::size_t i = 0; i < std::min(rivals.size(), kMostNamedRivals); ++i) {
     names += fmt::format("{}{} (cosine {:.2f})", names.empty() ? "" : "; ", rivals[i]->effect.name(),
                          rivals[i]->cosine.value_or(0.0));
   }
-  if (rivals.size() > kMostRivals) names += fmt::format("; {} more", rivals.size() - kMostRivals);
+  if (rivals.size() > kMostNamedRivals) names += fmt::format("; {} more", rivals.size() - kMostNamedRivals);
   return wrapped(std::string(kIndent, ' ') + "cannot be distinguished with these poses from:", names, kIndent + 2);
 }
 
@@ -100,8 +100,8 @@ std::string effect_lines(const RoundEntry& round, bool diagnosed) {
                            : class_name.size() <= kMostNameLetters
                                ? class_name
                                : class_text({round.members.front()}) + " or another";
-  std::string text = columns(std::to_string(round.round), name, effect.size(), probability(round.p_family),
-                             mm(round.validation_before_mm), mm(round.validation_after_mm));
+  std::string text = round_columns(std::to_string(round.round), name, effect.size(), probability(round.p_family),
+                                   mm_or_dash(round.validation_before_mm), mm_or_dash(round.validation_after_mm));
   if (!round.members.empty()) {
     text += wrapped(margin, fmt::format("{} The model has it as {}.", round.class_sentence, effect.name()), kIndent);
   }
@@ -121,9 +121,9 @@ std::string harmonics_lines(const Rounds& rounds) {
   }
   // What they did to the error is known where nothing else was added between them.
   const bool together = rounds.back()->round - rounds.front()->round + 1 == rounds.size();
-  std::string text = columns("", fmt::format("{} gear harmonics", rounds.size()), "", probability(p),
-                             together ? mm(rounds.front()->validation_before_mm) : "",
-                             together ? mm(rounds.back()->validation_after_mm) : "");
+  std::string text = round_columns("", fmt::format("{} gear harmonics", rounds.size()), "", probability(p),
+                                   together ? mm_or_dash(rounds.front()->validation_before_mm) : "",
+                                   together ? mm_or_dash(rounds.back()->validation_after_mm) : "");
   for (const auto& [joint, harmonics] : harmonics_of(effects)) {
     text +=
         wrapped(fmt::format("{}joint {}:", std::string(kIndent, ' '), joint), harmonics_text(harmonics), kIndent + 2);
@@ -145,7 +145,7 @@ std::string added_lines(Rounds rounds) {
     std::ranges::copy_if(rounds, std::back_inserter(harmonics), adds_harmonic);
     std::erase_if(rounds, adds_harmonic);
   }
-  std::string text = heading();
+  std::string text = rounds_heading();
   for (const RoundEntry* const round : rounds) text += effect_lines(*round, rounds.size() <= kMostDiagnoses);
   return harmonics.empty() ? text : text + harmonics_lines(harmonics);
 }

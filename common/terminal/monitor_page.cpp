@@ -20,7 +20,7 @@ namespace {
 using Lines = std::vector<std::string>;
 
 /// Keeps the heading and the last rows, and says how many are missing.
-Lines shortened(Lines lines, const TableOptions& options) {
+Lines with_last_rows(Lines lines, const TableOptions& options) {
   if (options.rows == 0 || lines.size() <= options.rows + 1) return lines;
   const std::size_t missing = lines.size() - 1 - options.rows;
   lines.erase(lines.begin() + 1, lines.begin() + 1 + static_cast<std::ptrdiff_t>(missing));
@@ -61,14 +61,15 @@ std::string worker_line(const WorkerCells& cells, std::size_t columns) {
          right_aligned(cells.islands, 9) + right_aligned(cells.speed, 8) + right_aligned(cells.waited, 7);
 }
 
-std::string in_mm(double value_m) {
+std::string metres_in_mm(double value_m) {
   return std::isfinite(value_m) ? fmt::format("{:.3f}", 1e3 * value_m) : "–";
 }
 
 std::string round_line(const LoopNews& round, std::size_t columns) {
   const bool is_added = round.verdict == LoopNews::Verdict::added;
   const std::string figures =
-      is_added ? in_mm(round.validation_before_m) + " -> " + in_mm(round.validation_after_m) : to_string(round.verdict);
+      is_added ? metres_in_mm(round.validation_before_m) + " -> " + metres_in_mm(round.validation_after_m)
+               : to_string(round.verdict);
   const std::string label = round.label.empty() ? "nothing" : round.label;
   const std::size_t room = columns - 5 - 20;
   const std::size_t label_room = std::min<std::size_t>(room, 42);
@@ -223,7 +224,7 @@ std::vector<std::string> worker_lines(const Watched& watched, double now_s, cons
                                                                              : TextStyle::faint;
     lines.push_back(styled(line, ink, options.colours));
   }
-  return shortened(std::move(lines), options);
+  return with_last_rows(std::move(lines), options);
 }
 
 std::vector<std::string> round_lines(const WatchedCalibration* calibration, const TableOptions& options) {
@@ -237,7 +238,7 @@ std::vector<std::string> round_lines(const WatchedCalibration* calibration, cons
     const TextStyle ink = round.verdict == LoopNews::Verdict::added ? TextStyle::good : TextStyle::faint;
     lines.push_back(styled(round_line(round, options.columns), ink, options.colours));
   }
-  return shortened(std::move(lines), options);
+  return with_last_rows(std::move(lines), options);
 }
 
 std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options) {

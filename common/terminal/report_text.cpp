@@ -24,7 +24,7 @@ std::string figures_line(const std::string& head, std::size_t columns, const Set
   return line + "\n";
 }
 
-std::string heading(const std::string& what, std::size_t columns) {
+std::string figures_heading(const std::string& what, std::size_t columns) {
   return fmt::format("  {:<{}}{:>9}{:>9}{:>9}{:>9}\n", what, columns, "mean", "rms", "P95", "max");
 }
 
@@ -43,7 +43,7 @@ std::string last_fit(const Report& report) {
 }
 
 /// How far single poses are predicted to err, and how many accept poses did not keep to it.
-std::string intervals(const std::vector<PoseErrorEntry>& poses, const std::optional<PredictionEntry>& prediction) {
+std::string intervals_text(const std::vector<PoseErrorEntry>& poses, const std::optional<PredictionEntry>& prediction) {
   const IntervalCoverage accept = coverage_of(poses);
   if (!prediction || (accept.poses == 0 && prediction->pose_set != "calibration")) return {};
   const std::string within =
@@ -65,12 +65,12 @@ std::string stages(const Report& report) {
   std::string text;
   for (const ReportPoseSet& set : kPoseSets) {
     if (!(report.before.*set.errors).mean_mm) continue;
-    text += heading(fmt::format("{} poses, tool error in mm", set.name), kStageColumns);
+    text += figures_heading(fmt::format("{} poses, tool error in mm", set.name), kStageColumns);
     for (const Stage& stage : all) text += figures_line("  " + stage.title, kStageColumns, stage.on(set));
   }
   const std::string outliers = outliers_sentence(report);
   return text + last_fit(report) + (outliers.empty() ? "" : wrapped(" ", outliers, 2)) +
-         intervals(report.pose_errors, report.prediction_interval) + workspace(report);
+         intervals_text(report.pose_errors, report.prediction_interval) + workspace(report);
 }
 
 std::string length_line(const LengthErrorEntry& length) {
@@ -187,7 +187,7 @@ std::string structure(const Report& report) {
          "  model.yaml has them in its links and tools, which then predict the same everywhere\n";
 }
 
-std::string named(const std::string& title, const std::vector<std::string>& names) {
+std::string listed_poses(const std::string& title, const std::vector<std::string>& names) {
   if (names.empty()) return {};
   constexpr std::size_t kShown = 8;
   std::string shown;
@@ -197,7 +197,7 @@ std::string named(const std::string& title, const std::vector<std::string>& name
 }
 
 /// What to look at before the figures.
-std::string data_check(const Report& report) {
+std::string data_check_text(const Report& report) {
   const std::string findings = to_terminal(report.data_check);
   return findings.empty() ? findings : "  Look at the data first:\n" + findings + "\n";
 }
@@ -206,18 +206,18 @@ std::string excluded(const Report& report) {
   std::vector<std::string> names;
   for (const ExcludedPose& pose : report.poses.excluded)
     names.push_back(fmt::format("{} ({:.2f} mm)", pose.id, pose.error_mm.value_or(0.0)));
-  return named("poses excluded by name, in no figure", names);
+  return listed_poses("poses excluded by name, in no figure", names);
 }
 
 }  // namespace
 
 std::string to_terminal(const Report& report) {
-  std::string text = data_check(report) + stages(report) + stations(report) + contacts(report) + structure(report);
+  std::string text = data_check_text(report) + stages(report) + stations(report) + contacts(report) + structure(report);
   if (!report.joints.empty()) text.append("\n").append(joints(report)).append(shared_functions(report));
   if (const std::string loop = loop_to_terminal(report); !loop.empty()) text.append("\n").append(loop).append("\n");
-  text += named("suspected outliers (down-weighted in the fit, included in all errors)", report.poses.outliers);
+  text += listed_poses("suspected outliers (down-weighted in the fit, included in all errors)", report.poses.outliers);
   text += excluded(report);
-  text += named("poses near a singularity, weighed less", report.poses.near_singular);
+  text += listed_poses("poses near a singularity, weighed less", report.poses.near_singular);
   for (const std::string& sentence : report.unidentified) text += wrapped("  not seen by these poses:", sentence, 4);
   if (report.noise_floor_mm)
     text += fmt::format("  noise floor from repeats: {:.3f} mm per axis\n", *report.noise_floor_mm);
@@ -227,13 +227,13 @@ std::string to_terminal(const Report& report) {
 }
 
 std::string to_terminal(const Evaluation& evaluation) {
-  std::string text = heading("tool error in mm", kSetColumns);
+  std::string text = figures_heading("tool error in mm", kSetColumns);
   for (const ReportPoseSet& set : kPoseSets) {
     const SetErrors& errors = evaluation.error_mm.*set.errors;
     if (errors.mean_mm) text += figures_line(std::string("  ") + set.name, kSetColumns, errors);
   }
   text += lengths(evaluation.length_errors);
-  text += intervals(evaluation.pose_errors, evaluation.prediction);
+  text += intervals_text(evaluation.pose_errors, evaluation.prediction);
   if (evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
                         *evaluation.uncertainty->expanded_mm);

@@ -24,13 +24,13 @@ constexpr std::size_t kWidestForm = 56;
 using Line = std::vector<std::string>;
 
 template <class Written>
-std::string written(const std::optional<MedianInterval>& figure, const Written& text) {
+std::string interval_text(const std::optional<MedianInterval>& figure, const Written& text) {
   if (!figure) return "-";
   return fmt::format("{} [{}, {}]", text(figure->median), text(figure->lower), text(figure->upper));
 }
 
-std::string with_digits(const std::optional<MedianInterval>& figure, int digits) {
-  return written(figure, [digits](double value) { return fmt::format("{:.{}f}", value, digits); });
+std::string interval_with_decimals(const std::optional<MedianInterval>& figure, int digits) {
+  return interval_text(figure, [digits](double value) { return fmt::format("{:.{}f}", value, digits); });
 }
 
 std::string in_thousands(double value) {
@@ -44,7 +44,7 @@ std::string short_name(const std::string& key) {
 }
 
 /// Columns as wide as what they hold, right-aligned.
-std::string aligned(const std::vector<Line>& lines) {
+std::string aligned_lines(const std::vector<Line>& lines) {
   std::vector<std::size_t> widths(lines.front().size());
   for (const Line& line : lines) {
     for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], display_width(line[i]));
@@ -122,15 +122,15 @@ std::string study_table(const Study& study) {
     const StudyCell& cell = cells[i];
     Line line = study.cells[i];
     line.push_back(std::to_string(cell.runs));
-    for (const ShownSet& set : shown) line.push_back(with_digits(cell.*set.figure, 4));
-    line.push_back(with_digits(cell.nodes, 0));
-    line.push_back(written(cell.evaluations, in_thousands));
-    line.push_back(with_digits(cell.wall_s, 1));
+    for (const ShownSet& set : shown) line.push_back(interval_with_decimals(cell.*set.figure, 4));
+    line.push_back(interval_with_decimals(cell.nodes, 0));
+    line.push_back(interval_text(cell.evaluations, in_thousands));
+    line.push_back(interval_with_decimals(cell.wall_s, 1));
     lines.push_back(std::move(line));
   }
   return fmt::format("{}: {} on {}, {} {}, {} of {} runs{}\n\n{}\n{}", study.job, study.robot, study.data, cells.size(),
                      cells.size() == 1 ? "cell" : "cells", study.runs.size(), cells.size() * study.seeds.size(),
-                     study.interrupted ? " (interrupted)" : "", aligned(lines), meaning(cells)) +
+                     study.interrupted ? " (interrupted)" : "", aligned_lines(lines), meaning(cells)) +
          " mm: rms of the tool error with the formulas" + (study.closed_loop ? ", and the effects found," : "") +
          " in place; nodes: of all joints' formulas.\n";
 }
@@ -151,7 +151,7 @@ std::string blocks_table(const Study& study, std::size_t most) {
   lines.front().front() = left_aligned("block", kWidestForm);
   return fmt::format(
              "Blocks that the best formulas of each length share across joints ({} islands, c a constant):\n\n{}",
-             study.islands, aligned(lines)) +
+             study.islands, aligned_lines(lines)) +
          wrapped("", "rank: the share of its island's front that an individual with the block is fitter than, mean.",
                  1) +
          (study.blocks.size() > most ? fmt::format(" {} more are in study.json.\n", study.blocks.size() - most) : "");

@@ -25,7 +25,7 @@ constexpr double kError = 0.05, kErrorOfAny = 1e-3;
 /// Of a cause beside those found, or beside a base found anew: it is sought in what they left of the same poses.
 constexpr double kErrorOfFurther = 0.005;
 constexpr double kFound = 1.645 + 1.282;  ///< one-sided at 5 %, nine times in ten
-constexpr std::size_t kFewestPoses = 4;
+constexpr std::size_t kFewestTestedPoses = 4;
 
 double usual_size(const std::string& unit) {
   return unit == "m" ? 2e-4 : unit == "rad" ? 3e-4 : 0.0;
@@ -49,7 +49,7 @@ class ChangeSearch {
       if (is_measured(data_.poses[i])) poses_.push_back(i);
     report_.poses = poses_.size();
     leave_out([&](std::size_t i) { return suspects.contains(data_.poses[poses_[i]].pose_id); });
-    if (poses_.size() < kFewestPoses)
+    if (poses_.size() < kFewestTestedPoses)
       throw InputError({data.file, 0}, std::to_string(poses_.size()),
                        "poses are too few to tell whether the robot has changed: measure 4 at least, better 12");
     place();
@@ -103,7 +103,7 @@ class ChangeSearch {
       all.conservativeResize(Eigen::NoChange, all.cols() + columns.cols());
       all.rightCols(columns.cols()) = columns;
     }
-    if (all.cols() >= all.rows() / 2 || poses_.size() < 2 * kFewestPoses) return false;
+    if (all.cols() >= all.rows() / 2 || poses_.size() < 2 * kFewestTestedPoses) return false;
     const Eigen::VectorXd left = rows.values - all * least_norm_solution(all, rows.values);
     std::vector<double> norms;
     Eigen::Index row = 0;

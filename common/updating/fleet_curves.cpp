@@ -35,7 +35,7 @@ double turns_between(const Interval& range, const Interval& other, bool revolute
 }
 
 /// The formula of theta at theta + shift.
-Tree shifted(const Tree& formula, double shift) {
+Tree shifted_formula(const Tree& formula, double shift) {
   if (shift == 0.0) return formula;
   const Tree argument = apply(Primitive::add, variable_tree(0), constant_tree(shift));
   Tree result;
@@ -84,7 +84,8 @@ class JointCurves {
       const JointCorrection& one = correction(*model);
       if (one.is_neutral()) continue;
       const double shift = -turns_between(one.range_rad(), first_, revolute_);
-      sum = apply(Primitive::add, apply(Primitive::multiply, constant_tree(share), shifted(one.formula(), shift)), sum);
+      sum = apply(Primitive::add,
+                  apply(Primitive::multiply, constant_tree(share), shifted_formula(one.formula(), shift)), sum);
     }
     return {std::move(sum), branch_, *known_};
   }

@@ -23,11 +23,12 @@ namespace {
 
 using Models = std::vector<const CalibratedModel*>;
 
-constexpr double kRounding = 1e-9;  ///< m, rad, kg
+constexpr double kSameMasses = 1e-9;  ///< m, rad, kg
 
 bool same_masses(const Robot& one, const Robot& other) {
   return std::ranges::equal(one.masses, other.masses, [](const LinkMass& here, const LinkMass& there) {
-    return std::abs(here.mass_kg - there.mass_kg) < kRounding && (here.centre_m - there.centre_m).norm() < kRounding;
+    return std::abs(here.mass_kg - there.mass_kg) < kSameMasses &&
+           (here.centre_m - there.centre_m).norm() < kSameMasses;
   });
 }
 

@@ -19,7 +19,7 @@ bool is_reference(const std::string& setting) {
 }
 
 /// What both ranges hold; the first where they have nothing in common.
-void narrow(MeasuredRanges& ranges, const MeasuredRanges& other) {
+void narrow_ranges(MeasuredRanges& ranges, const MeasuredRanges& other) {
   for (auto& [joint, range] : ranges) {
     const auto found = other.find(joint);
     if (found == other.end()) continue;
@@ -62,7 +62,7 @@ std::vector<Effect> united_effects(std::span<const CalibratedModel* const> model
       }
       double& count = robots[static_cast<std::size_t>(known - all.begin())];
       count += 1.0;
-      narrow(known->ranges, own.ranges);
+      narrow_ranges(known->ranges, own.ranges);
       for (auto& [name, value] : known->settings)
         if (is_reference(name)) value += (own.setting(name) - value) / count;
     }

@@ -112,8 +112,8 @@ double ripple_variance(const CalibratedModel& model, const CorrectedRobot& robot
 }
 
 /// Root mean square of what a unit of each coefficient moves, over poses.
-std::vector<std::vector<double>> motions_of(const CorrectedRobot& robot, const DataSet& data,
-                                            std::span<const std::size_t> poses) {
+std::vector<std::vector<double>> unit_motion_sizes(const CorrectedRobot& robot, const DataSet& data,
+                                                   std::span<const std::size_t> poses) {
   std::vector<std::vector<double>> sums(robot.effects.size());
   std::vector<UnitMotion> units;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
@@ -157,7 +157,7 @@ void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& da
   const auto n = static_cast<Eigen::Index>(ids_.size());
   stated_ = Eigen::MatrixXd::Zero(n, n);
   link_drift_ = effect_drift_ = Eigen::VectorXd::Zero(n);
-  const auto motions = motions_of(robot_, data, poses);
+  const auto motions = unit_motion_sizes(robot_, data, poses);
   std::vector<Eigen::Index> here, there;
   for (Eigen::Index i = 0; i < n; ++i) {
     const ParameterId& id = ids_[static_cast<std::size_t>(i)];

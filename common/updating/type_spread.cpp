@@ -8,8 +8,8 @@
 namespace demecal::inline updating {
 namespace {
 
-constexpr double kAlike = 4.0;         ///< robots that the belief in groups counts as
-constexpr double kLeastSpread = 1e-5;  ///< in sizes of about 1
+constexpr double kRobotsOfBelief = 4.0;  ///< robots that the belief in groups counts as
+constexpr double kLeastSpread = 1e-5;    ///< in sizes of about 1
 
 /// What is expected of robots and mean, the variances being as given.
 struct Expected {
@@ -77,13 +77,13 @@ TypeSpread type_spread(std::span<const KnownNumbers> robots, std::span<const int
     const Expected now = expected(robots, variance, mean_precision);
     const Eigen::VectorXd alike = pooled(variance, now.known, groups);
     const Eigen::VectorXd next =
-        ((kAlike * alike + now.squares) / (kAlike + count)).cwiseMax(kLeastSpread * kLeastSpread);
+        ((kRobotsOfBelief * alike + now.squares) / (kRobotsOfBelief + count)).cwiseMax(kLeastSpread * kLeastSpread);
     const double moved = (next - variance).cwiseAbs().cwiseQuotient(variance).maxCoeff();
     variance = next;
     if (moved < kSettled) break;
   }
   Expected last = expected(robots, variance, mean_precision);
-  const double freedom = kAlike + count - 1.0;
+  const double freedom = kRobotsOfBelief + count - 1.0;
   return {last.mean, last.mean_covariance, variance.cwiseSqrt(), freedom / (freedom - 2.0)};
 }
 

@@ -165,8 +165,8 @@ std::vector<std::size_t> without_gross(const LeftOut& found, const NewRows& rows
   return kept;
 }
 
-RowScales first_scales(const DataSet& data, const CorrectedRobot& placed, const std::vector<std::size_t>& poses,
-                       const std::optional<PredictionInterval>& interval) {
+RowScales scales_of_new_poses(const DataSet& data, const CorrectedRobot& placed, const std::vector<std::size_t>& poses,
+                              const std::optional<PredictionInterval>& interval) {
   constexpr double kSmallest = 1e-8;
   const auto observations = observe(data, poses, placed);
   RowScales scales = median_deviations(data, placed, observations);
@@ -179,8 +179,8 @@ RowScales first_scales(const DataSet& data, const CorrectedRobot& placed, const 
   return scales;
 }
 
-std::vector<ParameterEstimate> estimates_of(const PriorModel& prior, const CorrectedRobot& robot, const DataSet& data,
-                                            const Eigen::MatrixXd& root) {
+std::vector<ParameterEstimate> updated_estimates(const PriorModel& prior, const CorrectedRobot& robot,
+                                                 const DataSet& data, const Eigen::MatrixXd& root) {
   const CorrectedRobot nominal = nominal_robot(data);
   std::vector<ParameterEstimate> estimates;
   for (std::size_t i = 0; i < prior.ids().size(); ++i) {
@@ -248,7 +248,7 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
   constexpr std::size_t kMostLeftOut = 150;  ///< poses
   constexpr double kNothing = 1e-8;
   const PriorModel prior(model, placed, data, poses, declared, drift);
-  RowScales scales = first_scales(data, placed, poses, model.interval);
+  RowScales scales = scales_of_new_poses(data, placed, poses, model.interval);
   Update update;
   Solution solution{Eigen::VectorXd::Zero(prior.numbers()), {}};
   Sizes sizes;
@@ -273,7 +273,7 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
   update.robot = prior.changed(solution.change);
   set_errors_of_effects(prior, solution.root, update.robot);
   update.fitted = {posterior_of_update(prior, solution.root), scales};
-  update.estimates = estimates_of(prior, update.robot, data, solution.root);
+  update.estimates = updated_estimates(prior, update.robot, data, solution.root);
   update.factors = sizes.factors;
   update.noise_factor = sizes.noise;
   say_changes(sizes, model.fleet.has_value(), update);

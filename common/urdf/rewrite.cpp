@@ -20,7 +20,7 @@ struct ByteChange {
 };
 
 /// Three numbers to 1e-12.
-std::string triple(const Eigen::Vector3d& values) {
+std::string three_numbers(const Eigen::Vector3d& values) {
   std::string text;
   for (const double value : values) {
     const double rounded = std::round(value / kSame) * kSame;
@@ -30,14 +30,14 @@ std::string triple(const Eigen::Vector3d& values) {
 }
 
 std::string attribute_text(const char* name, const Eigen::Vector3d& values) {
-  return std::string(name) + "=\"" + triple(values) + '"';
+  return std::string(name) + "=\"" + three_numbers(values) + '"';
 }
 
 void replace_attribute(const XmlElement& origin, const char* name, const Eigen::Vector3d& old_values,
                        const Eigen::Vector3d& values, std::vector<ByteChange>& replacements) {
   if ((values - old_values).cwiseAbs().maxCoeff() <= kSame) return;
   if (const XmlAttribute* written = origin.attribute(name)) {
-    replacements.push_back({written->begin, written->end, triple(values)});
+    replacements.push_back({written->begin, written->end, three_numbers(values)});
   } else {
     const std::size_t end = origin.begin + 1 + origin.name.size();
     replacements.push_back({end, end, ' ' + attribute_text(name, values)});
@@ -57,7 +57,7 @@ void replace_origin(const NewOrigin& change, std::vector<ByteChange>& replacemen
       {at, at, "<origin " + attribute_text("xyz", origin.xyz_m) + ' ' + attribute_text("rpy", origin.rpy_rad) + "/>"});
 }
 
-std::string escaped(const std::string& text) {
+std::string xml_escaped(const std::string& text) {
   std::string all;
   for (const char c : text) {
     switch (c) {
@@ -81,12 +81,12 @@ std::string escaped(const std::string& text) {
 std::string joint_text(const std::string& name, const std::string& type, const std::string& parent,
                        const std::string& child, const Eigen::Isometry3d& place, const std::string& rest) {
   const Origin origin = origin_of(place);
-  return "  <joint name=\"" + escaped(name) + "\" type=\"" + type + "\">\n    <origin " +
+  return "  <joint name=\"" + xml_escaped(name) + "\" type=\"" + type + "\">\n    <origin " +
          attribute_text("xyz", origin.xyz_m) + ' ' + attribute_text("rpy", origin.rpy_rad) + "/>\n    <parent link=\"" +
          parent + "\"/>\n    <child link=\"" + child + "\"/>\n" + rest + "  </joint>\n";
 }
 
-std::string type_of(const Joint& joint) {
+std::string urdf_type(const Joint& joint) {
   return !is_revolute(joint) ? "prismatic" : joint.endless ? "continuous" : "revolute";
 }
 
@@ -111,7 +111,7 @@ std::string with_origins(const std::string& text, const std::vector<NewOrigin>& 
 
 std::string plain_urdf(const Robot& robot, const Chain& chain) {
   std::ostringstream links, joints;
-  links << "<?xml version=\"1.0\"?>\n<robot name=\"" << escaped(robot.name) << "\">\n  <link name=\"base\"/>\n";
+  links << "<?xml version=\"1.0\"?>\n<robot name=\"" << xml_escaped(robot.name) << "\">\n  <link name=\"base\"/>\n";
   Eigen::Isometry3d before = chain.base;  // of the joint's axis, in the link before
   std::string parent = "base";
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
@@ -125,7 +125,7 @@ std::string plain_urdf(const Robot& robot, const Chain& chain) {
     const std::string number = std::to_string(i + 1);
     const bool named = robot.drawing && !robot.drawing->joints[i].name.empty();
     links << "  <link name=\"link_" << number << "\"/>\n";
-    joints << joint_text(named ? robot.drawing->joints[i].name : "joint_" + number, type_of(row), parent,
+    joints << joint_text(named ? robot.drawing->joints[i].name : "joint_" + number, urdf_type(row), parent,
                          "link_" + number, before, motion_text(row));
     before = after;
     parent = "link_" + number;

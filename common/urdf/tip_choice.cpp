@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <set>
 
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 
 namespace demecal::inline urdf {
 namespace {
-
-std::string listed(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-  return text;
-}
 
 /// A link without children, and the joints that are commanded on the way to it.
 struct Leaf {
@@ -45,7 +40,7 @@ bool is_on_the_way(const Leaf& leaf, const std::vector<Leaf>& all) {
 [[noreturn]] void ask(const UrdfFile& urdf, const std::vector<Leaf>& leaves) {
   std::vector<std::string> names;
   for (const Leaf& leaf : leaves) names.push_back(leaf.link);
-  throw InputError({urdf.file, 0}, listed(names),
+  throw InputError({urdf.file, 0}, joined_words(names, ", "),
                    "are links that an arm could end at; say --tip LINK, one of these or a link before them");
 }
 
@@ -95,7 +90,7 @@ std::string root_link(const UrdfFile& urdf) {
     if (urdf.joint_to(link.name) == nullptr) roots.push_back(link.name);
   }
   if (roots.size() == 1) return roots.front();
-  throw InputError({urdf.file, 0}, listed(roots), "are links that hang on no other; say --base LINK");
+  throw InputError({urdf.file, 0}, joined_words(roots, ", "), "are links that hang on no other; say --base LINK");
 }
 
 std::string tip_link(const UrdfFile& urdf, const std::string& base, std::vector<std::string>& notes) {
@@ -114,7 +109,7 @@ std::string tip_link(const UrdfFile& urdf, const std::string& base, std::vector<
   for (const Leaf& end : ends) {
     if (end.link != flange->link) others.push_back(end.link);
   }
-  notes.push_back("the arm is taken to end at link " + flange->link + ", not at " + listed(others) +
+  notes.push_back("the arm is taken to end at link " + flange->link + ", not at " + joined_words(others, ", ") +
                   "; --tip LINK takes another");
   return flange->link;
 }

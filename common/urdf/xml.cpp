@@ -12,7 +12,7 @@
 namespace demecal::inline urdf {
 namespace {
 
-constexpr std::size_t kDeepest = 200;
+constexpr std::size_t kDeepestElement = 200;
 
 bool is_space(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\n';
@@ -181,7 +181,7 @@ class Parser {
     element.stands_closed = text_[at_] == '/';
     at_ += element.stands_closed ? 2 : 1;
     element.tag_end = at_;
-    if (open_.size() >= kDeepest) fail(element.name, "is nested too deep");
+    if (open_.size() >= kDeepestElement) fail(element.name, "is nested too deep");
     const bool closed = element.stands_closed;
     open_.push_back(std::move(element));
     if (closed) close();

@@ -51,7 +51,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 /// `search`: of the searches for the null distribution, which this is, from 1.
-std::string to_string(Purpose purpose, int search) {
+std::string search_words(Purpose purpose, int search) {
   if (purpose == Purpose::corrections) return "evolving the joint corrections anew beside the effects";
   if (purpose == Purpose::formulas) return "evolving formulas over all circumstances on what is left";
   return "the same search on permuted poses, to know what chance finds: number " + std::to_string(search);
@@ -62,7 +62,7 @@ bool evolves_on_islands(const Job& job) {
   return job.declared.joint_corrections && (job.method != Method::distal || job.distal.form == DistalForm::parallel);
 }
 
-std::string to_string(const std::vector<SharedFunction>& functions) {
+std::string sharing_words(const std::vector<SharedFunction>& functions) {
   if (functions.empty()) return "no structure shortens formulas of two joints: no function is shared yet";
   std::string words = "joints share";
   for (std::size_t i = 0; i < functions.size(); ++i) words += (i == 0 ? " " : "; ") + definition_text(functions[i], i);
@@ -89,7 +89,7 @@ class AnnouncedEvolver final : public Evolver {
   }
   void announce(Purpose purpose) override {
     if (purpose == Purpose::null_distribution) ++null_searches_;
-    observer_.on_message(to_string(purpose, null_searches_));
+    observer_.on_message(search_words(purpose, null_searches_));
   }
   bool is_interrupted() const override { return islands_.is_interrupted(); }
   void add_effort(std::uint32_t generations, std::uint64_t evaluations) override {
@@ -108,7 +108,7 @@ class StagedEvolver final : public Evolver {
   StagedEvolver(Evolver& evolver, CalibrationObserver& observer) : evolver_(evolver), observer_(observer) {}
 
   EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms& terms) override {
-    if (!std::exchange(first_, false)) observer_.on_message(to_string(terms.functions));
+    if (!std::exchange(first_, false)) observer_.on_message(sharing_words(terms.functions));
     return evolver_.evolve(trainings, terms);
   }
 

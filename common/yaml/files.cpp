@@ -13,7 +13,7 @@
 namespace demecal::inline yaml {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& what, const std::string& why) {
+[[noreturn]] void fail_file(const std::filesystem::path& path, const std::string& what, const std::string& why) {
   throw InputError({path.string(), 0}, "", what + ": " + why);
 }
 
@@ -21,29 +21,29 @@ namespace {
 
 std::string read_file(const std::filesystem::path& path) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) fail(path, "cannot be read", system_reason(EISDIR));
+  if (std::filesystem::is_directory(path, ignored)) fail_file(path, "cannot be read", system_reason(EISDIR));
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) fail(path, "cannot be read", system_reason(errno));
+  if (!stream) fail_file(path, "cannot be read", system_reason(errno));
   std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-  if (stream.bad()) fail(path, "cannot be read", system_reason(errno));
+  if (stream.bad()) fail_file(path, "cannot be read", system_reason(errno));
   return bytes;
 }
 
 void write_file(const std::filesystem::path& path, const std::string& bytes) {
   std::error_code folder_fault;
   if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), folder_fault);
-  if (folder_fault) fail(path.parent_path(), "cannot be made", folder_fault.message());
+  if (folder_fault) fail_file(path.parent_path(), "cannot be made", folder_fault.message());
   std::filesystem::path unfinished = path;
   unfinished += ".part";
   errno = 0;
   std::ofstream stream(unfinished, std::ios::binary);
   stream << bytes;
   stream.close();
-  if (!stream) fail(path, "cannot be written", system_reason(errno));
+  if (!stream) fail_file(path, "cannot be written", system_reason(errno));
   std::error_code renaming_fault;
   std::filesystem::rename(unfinished, path, renaming_fault);
-  if (renaming_fault) fail(path, "cannot be written", renaming_fault.message());
+  if (renaming_fault) fail_file(path, "cannot be written", renaming_fault.message());
 }
 
 std::filesystem::path resolve(const std::filesystem::path& file, const std::string& name) {

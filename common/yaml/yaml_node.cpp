@@ -12,12 +12,6 @@ namespace {
 
 constexpr std::string_view kVersionPrefix = "demecal_";
 
-std::string joined(std::span<const std::string> words) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
-  return text;
-}
-
 template <typename Whole>
 bool parse_whole(const YamlNode& node, Whole& value) {
   const char* end = node.scalar.data() + node.scalar.size();
@@ -30,7 +24,7 @@ void require_map(const YamlNode& node) {
     node.fail(node.key.empty() ? "" : node.scalar, "must be a map of keys and values");
 }
 
-constexpr std::array<std::string_view, 4> kUnits{"deg", "rad", "mm", "m"};
+constexpr std::array<std::string_view, 4> kKeyUnits{"deg", "rad", "mm", "m"};
 
 std::string expected_keys(const std::string& stem, JointType joint) {
   return joint == JointType::revolute ? stem + "_deg or " + stem + "_rad" : stem + "_mm or " + stem + "_m";
@@ -54,7 +48,7 @@ const YamlNode& YamlNode::with_keys(std::span<const std::string> allowed) const 
     const std::string where = key.empty() ? "" : " of " + key;
     const InputError fault({child.file, child.line}, child.name,
                            "is no key" + where + "; the nearest is '" + nearest_name(child.name, allowed) +
-                               "'. Keys that are allowed here: " + joined(allowed));
+                               "'. Keys that are allowed here: " + joined_words(allowed, " "));
     throw UnknownKey(fault, {allowed.begin(), allowed.end()});
   }
   return *this;
@@ -170,8 +164,8 @@ std::pair<double, double> YamlNode::range() const {
 }
 
 void YamlNode::fail_choice(std::span<const std::string> words) const {
-  if (kind != Kind::scalar) fail("must be one of: " + joined(words));
-  fail("must be one of: " + joined(words) + "; the nearest is '" + nearest_name(scalar, words) + "'");
+  if (kind != Kind::scalar) fail("must be one of: " + joined_words(words, " "));
+  fail("must be one of: " + joined_words(words, " ") + "; the nearest is '" + nearest_name(scalar, words) + "'");
 }
 
 int joint_at(const YamlNode& map, std::string_view key, const Chain& chain) {
@@ -181,7 +175,7 @@ int joint_at(const YamlNode& map, std::string_view key, const Chain& chain) {
 std::vector<std::string> keys_with_units(const std::vector<std::string>& stems) {
   std::vector<std::string> keys;
   for (const std::string& stem : stems) {
-    for (const std::string_view unit : kUnits) keys.push_back(stem + "_" + std::string(unit));
+    for (const std::string_view unit : kKeyUnits) keys.push_back(stem + "_" + std::string(unit));
   }
   return keys;
 }
@@ -189,7 +183,7 @@ std::vector<std::string> keys_with_units(const std::vector<std::string>& stems) 
 std::optional<MeasuredNode> find_measured(const YamlNode& map, const std::string& stem, JointType joint) {
   const Quantity expected = joint == JointType::revolute ? Quantity::angle : Quantity::length;
   std::optional<MeasuredNode> measured;
-  for (const std::string_view name : kUnits) {
+  for (const std::string_view name : kKeyUnits) {
     const YamlNode* found = map.find(stem + "_" + std::string(name));
     if (!found) continue;
     const ColumnUnit unit = *find_unit(name);

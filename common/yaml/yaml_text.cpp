@@ -10,7 +10,7 @@
 namespace demecal::inline yaml {
 namespace {
 
-bool is_letter(char c) {
+bool is_key_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
 
@@ -20,14 +20,14 @@ bool is_reserved(std::string_view text) {
   return std::find(kWords.begin(), kWords.end(), lower_case(text)) != kWords.end();
 }
 
-bool is_plain(std::string_view text) {
-  if (text.empty() || !is_letter(text.front()) || text.back() == ' ' || is_reserved(text)) return false;
+bool needs_no_quotes(std::string_view text) {
+  if (text.empty() || !is_key_letter(text.front()) || text.back() == ' ' || is_reserved(text)) return false;
   return std::all_of(text.begin(), text.end(), [](char c) {
-    return is_letter(c) || (c >= '0' && c <= '9') || c == ' ' || c == '.' || c == '/' || c == '-';
+    return is_key_letter(c) || (c >= '0' && c <= '9') || c == ' ' || c == '.' || c == '/' || c == '-';
   });
 }
 
-std::string escaped(char c) {
+std::string escaped_character(char c) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   const auto code = static_cast<unsigned char>(c);
   if (c == '"' || c == '\\') return std::string("\\") + c;
@@ -38,9 +38,9 @@ std::string escaped(char c) {
 }  // namespace
 
 std::string yaml_text(std::string_view text) {
-  if (is_plain(text)) return std::string(text);
+  if (needs_no_quotes(text)) return std::string(text);
   std::string quoted = "\"";
-  for (const char c : text) quoted += escaped(c);
+  for (const char c : text) quoted += escaped_character(c);
   return quoted + "\"";
 }
 

@@ -204,7 +204,7 @@ void write_corrected(const ProgramSource& source, const CorrectedProgram& correc
   }
 }
 
-ExitCode run(const ApplyRequest& request) {
+ExitCode run_apply(const ApplyRequest& request) {
   const std::vector<std::filesystem::path> places = places_of(request);
   const ProgramSource source(program_files(request));
   for (std::size_t file = 0; file < places.size(); ++file)
@@ -283,7 +283,7 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
                    "X Y Z of the program's tool point on the flange, where it is not the tool that was measured; a "
                    "tool that the program states comes first")
       ->expected(3);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_apply(*request); });
 }
 
 }  // namespace demecal

@@ -118,7 +118,7 @@ std::string resuming(const CalibrateRequest& request) {
 }
 
 /// A full disk is no fault of the user's input, and the journal still has what was reached.
-Report write(const CalibrateRequest& request, const DataSet& data, const CalibrateResult& result) {
+Report write_calibration(const CalibrateRequest& request, const DataSet& data, const CalibrateResult& result) {
   try {
     return write_results(request.out, data, result);
   } catch (const InputError& error) {
@@ -126,7 +126,7 @@ Report write(const CalibrateRequest& request, const DataSet& data, const Calibra
   }
 }
 
-std::string effort(const Job& job, const RunFacts& facts) {
+std::string effort_text(const Job& job, const RunFacts& facts) {
   if (job.method == Method::structural)
     return fmt::format("{} structures fitted in {:.1f} s", facts.evaluations, facts.wall_s);
   const std::string sets = facts.evolved_sets == 0 ? "" : fmt::format("{} sets of effects", facts.evolved_sets);
@@ -188,7 +188,7 @@ class ObserverPair final : public CalibrationObserver {
   std::array<CalibrationObserver*, 2> observers_;
 };
 
-ExitCode run(CalibrateRequest request) {
+ExitCode run_calibrate(CalibrateRequest request) {
   if (!request.prior_file.empty()) {
     if (request.out.empty() || !request.resume.empty())
       throw ArgumentError("--prior needs --out, and cannot be resumed: it takes seconds");
@@ -240,14 +240,14 @@ ExitCode run(CalibrateRequest request) {
                request.worker_timeout_s, request.workers.dds->domain, resuming(request));
     return ExitCode::no_worker;
   }
-  const Report report = write(request, data, result);
+  const Report report = write_calibration(request, data, result);
   if (end == RunEnd::interrupted) {
     event_log.finish(LoopNews::Stage::interrupted, "interrupted");
   } else {
     event_log.finish(LoopNews::Stage::finished, finished_with(report));
   }
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
-             effort(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
+             effort_text(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
              request.out, has_islands(job.method) ? ", history.csv, fronts.csv" : "");
   if (end == RunEnd::interrupted) {
     fmt::print("  {}\n", resuming(request));
@@ -294,7 +294,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
                     "islands wait for no neighbour: never idle, but another run gives another result");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_calibrate(*request); });
 }
 
 }  // namespace demecal

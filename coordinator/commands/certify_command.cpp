@@ -37,7 +37,7 @@ struct CertifyRequest {
   bool json = false, refit_base = false, force = false;
 };
 
-std::string figures_line(const char* words, const SetErrors& errors) {
+std::string certified_line(const char* words, const SetErrors& errors) {
   const auto mm = [](const std::optional<double>& value) {
     return value ? fmt::format("{:.3f}", *value) : std::string("–");
   };
@@ -45,13 +45,13 @@ std::string figures_line(const char* words, const SetErrors& errors) {
                      mm(errors.p95_mm), mm(errors.max_mm));
 }
 
-std::string summary(const Certificate& certificate) {
+std::string certificate_summary(const Certificate& certificate) {
   std::string text = verdict_sentence(certificate) + '\n';
   if (const std::string remedy = remedy_sentence(certificate); !remedy.empty()) text += remedy + '\n';
   text += fmt::format("\n  {:<34}{:>10}{:>10}{:>10}{:>10}\n",
                       fmt::format("{} {} measurements, mm", certificate.judged_rows, certificate.judged_set), "mean",
                       "rms", "P95", "largest");
-  text += figures_line("before", certificate.before) + figures_line("after", certificate.after);
+  text += certified_line("before", certificate.before) + certified_line("after", certificate.after);
   if (certificate.uncertainty && certificate.uncertainty->expanded_mm)
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
                         *certificate.uncertainty->expanded_mm);
@@ -95,7 +95,7 @@ bool are_computed(const CheckedData& checked) {
   return false;
 }
 
-ExitCode run(const CertifyRequest& request) {
+ExitCode run_certify(const CertifyRequest& request) {
   if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
   CalibratedModel model = load_model(request.model_file);
   require_one_robot(model, request.model_file, "certify");
@@ -122,8 +122,8 @@ ExitCode run(const CertifyRequest& request) {
   if (request.json) {
     fmt::print("{}", to_json(certificate));
   } else {
-    fmt::print("{}\n{}/certificate.html\n{}/certificate.xml\n{}\n", summary(certificate), request.out, request.out,
-               pdf);
+    fmt::print("{}\n{}/certificate.html\n{}/certificate.xml\n{}\n", certificate_summary(certificate), request.out,
+               request.out, pdf);
   }
   return ExitCode::done;
 }
@@ -147,7 +147,7 @@ void add_certify(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--refit-base", request->refit_base,
                     "fit base and tool to the poses that are not judged first, where the instrument was moved");
   add_force(*command, request->force);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_certify(*request); });
 }
 
 }  // namespace demecal

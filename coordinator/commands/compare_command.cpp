@@ -54,7 +54,7 @@ struct CompareRequest {
   bool json = false, baselines_only = false, force = false;
 };
 
-Job job_of(const CompareRequest& request) {
+Job compared_job(const CompareRequest& request) {
   Job job = load_job(request.job_file);
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
@@ -134,8 +134,8 @@ ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const 
   return result.end == RunEnd::interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
-ExitCode run(const CompareRequest& request) {
-  const Job job = job_of(request);
+ExitCode run_compare(const CompareRequest& request) {
+  const Job job = compared_job(request);
   const CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
   const DataSet& data = checked.data;
   require_instrument(data, "compare");
@@ -175,7 +175,7 @@ void add_compare(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--seed", request->seed, "seed of all randomness (default: the job's)")->check(not_negative());
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(not_negative());
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_compare(*request); });
 }
 
 void add_report(CLI::App& app, ExitCode& exit_code) {

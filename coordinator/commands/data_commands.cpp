@@ -116,7 +116,7 @@ ExitCode prepare_recordings(const Recordings& recordings, const PrepareRequest& 
   return ExitCode::done;
 }
 
-ExitCode run(const PrepareRequest& request) {
+ExitCode run_prepare(const PrepareRequest& request) {
   if (const auto recordings = recordings_asked(request)) return prepare_recordings(*recordings, request);
   const RawMeasurements raw = load_preparation(request.file);
   const Prepared prepared = prepare_measurements(raw);
@@ -152,7 +152,7 @@ struct SimulateRequest {
   bool force = false;
 };
 
-ExitCode run(const SimulateRequest& request) {
+ExitCode run_simulate(const SimulateRequest& request) {
   const Scenario scenario = load_scenario(request.scenario_file);
   const std::vector<std::string> files{"dataset.yaml", "poses.csv", "robot.yaml", "truth.yaml"};
   make_writable(request.out, files, request.force);
@@ -190,7 +190,7 @@ void add_prepare(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::IsMember({"three_points", "best_fit", "instrument"}));
   command->add_flag("--json", request->json, "the statistic as one line of JSON");
   add_force(*command, request->force);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_prepare(*request); });
 }
 
 void add_simulate(CLI::App& app, ExitCode& exit_code) {
@@ -201,7 +201,7 @@ void add_simulate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", request->out, "folder for the data set")->required();
   command->add_flag("--force", request->force,
                     "overwrite files that demecal did not write, or that were changed since");
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_simulate(*request); });
 }
 
 }  // namespace demecal

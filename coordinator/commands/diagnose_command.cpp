@@ -72,7 +72,7 @@ DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<Ca
   return declared;
 }
 
-Job job_of(const DiagnoseRequest& request, const DeclaredModel& declared) {
+Job diagnosis_job(const DiagnoseRequest& request, const DeclaredModel& declared) {
   Job job;
   job.name = std::filesystem::path(request.data_files.front()).stem().string();
   job.data_files = request.data_files;
@@ -94,11 +94,11 @@ void write_proposed(const DiagnoseRequest& request, const DataSet& data, const D
   write_result(request.out, "proposed.csv", proposed_poses_csv(request.data_files.front(), data, stops));
 }
 
-ExitCode run(const DiagnoseRequest& request) {
+ExitCode run_diagnose(const DiagnoseRequest& request) {
   if (!request.prior_file.empty()) {
     return run_with_prior({.prior_file = request.prior_file,
                            .out = request.out,
-                           .job = job_of(request, declared_model(request.declared)),
+                           .job = diagnosis_job(request, declared_model(request.declared)),
                            .declared_stated = !request.declared.empty(),
                            .json = request.json,
                            .quiet = request.quiet,
@@ -114,7 +114,7 @@ ExitCode run(const DiagnoseRequest& request) {
   std::vector<std::string> files = result_files(Method::diagnose);
   if (request.proposed > 0) files.emplace_back("proposed.csv");
   make_writable(request.out, files, request.force);
-  const Job job = job_of(request, declared_by(request, known, data));
+  const Job job = diagnosis_job(request, declared_by(request, known, data));
   if (refuses(checked, request.force)) {
     write_refusal(request.out, job.name, checked);
     return ExitCode::contradiction;
@@ -195,7 +195,7 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", request->json, "print report.json in place of the report for people");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_diagnose(*request); });
 }
 
 }  // namespace demecal

@@ -29,18 +29,18 @@ struct TemplateRequest {
   bool force = false;
 };
 
-TemplateKind kind_of(const std::string& word) {
+TemplateKind template_kind(const std::string& word) {
   if (word == "robot") return TemplateKind::robot;
   if (word == "dataset") return TemplateKind::dataset;
   if (word == "job") return TemplateKind::job;
   return word == "scenario" ? TemplateKind::scenario : TemplateKind::preparation;
 }
 
-ExitCode run(const TemplateRequest& request) {
+ExitCode run_template(const TemplateRequest& request) {
   const std::filesystem::path out = request.out;
   const std::filesystem::path folder = out.has_parent_path() ? out.parent_path() : ".";
   const std::vector<std::filesystem::path> given(request.given.begin(), request.given.end());
-  const std::string text = template_text(kind_of(request.kind), given, folder);
+  const std::string text = template_text(template_kind(request.kind), given, folder);
   if (request.out.empty()) {
     fmt::print("{}", text);
     return ExitCode::done;
@@ -93,7 +93,7 @@ ImportedRobot robot_file(const NewRequest& request) {
   return import_urdf(urdf);
 }
 
-ExitCode run(const NewRequest& request) {
+ExitCode run_new(const NewRequest& request) {
   const ImportedRobot arm = robot_file(request);
   const std::string named = request.urdf.empty() ? request.robot : request.folder + "/robot.yaml";
   const Robot robot = read_robot(parse_yaml(arm.text, named).with_version("robot", 1));
@@ -132,7 +132,7 @@ void add_template(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--for", request->given, "tables of poses or readings, robot programs, ROBOT.yaml, DATASET.yaml");
   command->add_option("--out", request->out, "file to write; without it, standard output");
   command->add_flag("--force", request->force, "overwrite the file");
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_template(*request); });
 }
 
 void add_new(CLI::App& app, ExitCode& exit_code) {
@@ -154,7 +154,7 @@ void add_new(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::IsMember({"point", "comma"}));
   command->add_flag("--force", request->force,
                     "overwrite files that demecal did not write, or that were changed since");
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_new(*request); });
 }
 
 }  // namespace demecal

@@ -23,7 +23,7 @@ struct FleetRequest {
 };
 
 /// A fleet's file may be written again; nothing else is overwritten unasked.
-void require_writable(const FleetRequest& request) {
+void require_fleet_file(const FleetRequest& request) {
   if (request.force || !std::filesystem::exists(request.out)) return;
   try {
     if (load_model(request.out).fleet) return;
@@ -52,10 +52,10 @@ std::string table(const CalibratedModel& model) {
   return text;
 }
 
-ExitCode run(const FleetRequest& request) {
+ExitCode run_fleet(const FleetRequest& request) {
   std::vector<NamedModel> models;
   for (const std::string& file : request.model_files) models.push_back({file, load_model(file)});
-  require_writable(request);
+  require_fleet_file(request);
   CalibratedModel fleet = fleet_model(models);
   std::string hashes;
   for (const FleetMember& one : fleet.fleet->robots) hashes += one.data_sha256 + '\n';
@@ -86,7 +86,7 @@ void add_fleet(CLI::App& app, ExitCode& exit_code) {
       ->required();
   command->add_option("--out", request->out, "fleet.yaml, for calibrate --prior and diagnose --prior")->required();
   command->add_flag("--force", request->force, "overwrite a file that is not a fleet's");
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_fleet(*request); });
 }
 
 }  // namespace demecal

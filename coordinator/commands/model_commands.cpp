@@ -134,7 +134,7 @@ ExitCode run_links(const ExportRequest& request) {
   return ExitCode::done;
 }
 
-ExitCode run(const ExportRequest& request) {
+ExitCode run_export(const ExportRequest& request) {
   if (!code_languages().contains(request.format)) return run_links(request);
   Algebra algebra;
   auto [listing, inverse] = listing_asked(algebra, request);
@@ -164,7 +164,7 @@ CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
   return fit.robot;
 }
 
-ExitCode run(const EvaluateRequest& request) {
+ExitCode run_evaluate(const EvaluateRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
   say_if_fleet(model, request.model_file);
   CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
@@ -209,7 +209,7 @@ void add_export(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--urdf", request->urdf, "the URDF that the robot was imported from, where it has moved");
   command->add_option("--derivative", request->derivative, "the pose's derivative by this joint, instead of the pose")
       ->check(CLI::Range(1, kMaxJoints));
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_export(*request); });
 }
 
 void add_evaluate(CLI::App& app, ExitCode& exit_code) {
@@ -221,7 +221,7 @@ void add_evaluate(CLI::App& app, ExitCode& exit_code) {
   add_force(*command, request->force);
   command->add_flag("--refit-base", request->refit_base,
                     "fit base and tool to the data first, where the instrument or the tool was moved");
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_evaluate(*request); });
 }
 
 namespace {
@@ -254,7 +254,7 @@ void keep(const CheckRequest& request, const ChangeReport& change, const DataSet
   fmt::print(stderr, "{}/{}: {} check{}\n", request.history, kPage, records.size(), records.size() == 1 ? "" : "s");
 }
 
-ExitCode run(const CheckRequest& request) {
+ExitCode run_check(const CheckRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
   require_one_robot(model, request.model_file, "check");
   const CheckedData checked = load_checked_as_one_set(request.data_file);
@@ -281,7 +281,7 @@ void add_check(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--history", request->history,
                       "folder that keeps the record of checks: a line is added, and its control chart drawn");
   add_force(*command, request->force);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_check(*request); });
 }
 
 }  // namespace demecal

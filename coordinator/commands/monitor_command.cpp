@@ -35,7 +35,7 @@ namespace {
 
 using MonitorClock = std::chrono::steady_clock;
 
-constexpr std::chrono::milliseconds kTick{100};
+constexpr std::chrono::milliseconds kRefreshInterval{100};
 /// What comes late to whoever joins has come by then, save for what workers repeat.
 constexpr double kSettled_s = 0.5;
 
@@ -61,7 +61,7 @@ ExitCode watch(Transport& transport, const std::atomic<bool>& stop, const Monito
   const MonitorClock::time_point begin = MonitorClock::now();
   MonitorOutput output(options);
   while (!stop) {
-    const auto message = transport.receive(kTick);
+    const auto message = transport.receive(kRefreshInterval);
     const double now_s = watched_s_since(begin);
     if (message) output.take(*message, now_s);
     output.show(now_s);
@@ -89,15 +89,15 @@ ExitCode replay(const std::string& path, const std::atomic<bool>& stop, const Mo
     while (!stop && !options.once && watched_s_since(begin) * options.speed < time_s) {
       output.show(watched_s_since(begin) * options.speed);
       const std::chrono::duration<double> left(time_s / options.speed - watched_s_since(begin));
-      std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(left, kTick));
+      std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(left, kRefreshInterval));
     }
     if (stop) break;
     output.take(event.message, time_s);
   }
   output.finish(time_s);
   while (!options.http.empty() && !stop) {  // it may be looked at for as long as one likes
-    output.show(time_s += std::chrono::duration<double>(kTick).count());
-    std::this_thread::sleep_for(kTick);
+    output.show(time_s += std::chrono::duration<double>(kRefreshInterval).count());
+    std::this_thread::sleep_for(kRefreshInterval);
   }
   return ExitCode::done;
 }
@@ -110,7 +110,7 @@ struct MonitorRequest {
   std::shared_ptr<DdsOptions> dds;
 };
 
-ExitCode run(MonitorRequest& request) {
+ExitCode run_monitor(MonitorRequest& request) {
   if (request.ros2) {
     if (!request.dds->security.empty()) {
       throw ArgumentError("--ros2 publishes what every program may read, and so not with --security");
@@ -180,7 +180,7 @@ void add_monitor(CLI::App& app, ExitCode& exit_code) {
       ->excludes("--once");
   request->dds = add_dds_arguments(*command);
   wait->excludes(recorded)->excludes(http);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_monitor(*request); });
 }
 
 }  // namespace demecal

@@ -50,7 +50,7 @@ void take_ball(const PlanCommand& command, PlanRequest& request) {
   request.tools_m.clear();
 }
 
-PlanRequest request_of(const PlanCommand& command) {
+PlanRequest plan_request(const PlanCommand& command) {
   PlanRequest request;
   request.robot = load_robot(command.robot_file);
   if (!command.declared.empty()) request.declared = declared_model(command.declared);
@@ -109,10 +109,10 @@ std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request) {
   return files;
 }
 
-ExitCode run(const PlanCommand& command) {
+ExitCode run_plan(const PlanCommand& command) {
   if (command.poses && command.accuracy_mm)
     throw ArgumentError("--poses and --accuracy exclude each other: state one of them");
-  const PlanRequest request = request_of(command);
+  const PlanRequest request = plan_request(command);
   const Plan plan = make_plan(request);
   std::vector<NamedText> files = files_of(plan, request);
   std::vector<std::string> names;
@@ -129,7 +129,7 @@ ExitCode run(const PlanCommand& command) {
   return ExitCode::done;
 }
 
-CLI::Validator one_of(std::vector<std::string> words) {
+CLI::Validator listed_words(std::vector<std::string> words) {
   return {[words = std::move(words)](const std::string& word) -> std::string {
             if (std::find(words.begin(), words.end(), word) != words.end()) return {};
             return fmt::format("'{}' is none of: {}", word, fmt::join(words, " "));
@@ -156,11 +156,11 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
                    "LIST of what the model will contain, registration always (default: "
                    "registration,tool,joint_offset,geometry)")
       ->delimiter(',')
-      ->check(one_of(declared_words()));
+      ->check(listed_words(declared_words()));
   const auto kinds = effect_kinds();
   command->add_option("--detect", request->detect, "LIST of kinds of effects that the poses shall tell apart besides")
       ->delimiter(',')
-      ->check(one_of({kinds.begin(), kinds.end()}));
+      ->check(listed_words({kinds.begin(), kinds.end()}));
   command->add_option("--cell", request->cell_file, "CELL.yaml: room for the arm, instrument, targets, noise");
   command
       ->add_option("--contacts", request->contacts,
@@ -176,7 +176,7 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", request->json, "print plan.json in place of the summary");
   command->add_flag("--force", request->force,
                     "overwrite files that demecal did not write, or that were changed since");
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_plan(*request); });
 }
 
 }  // namespace demecal

@@ -37,7 +37,7 @@ struct ImportOptions {
   bool force = false;
 };
 
-ExitCode run(ImportOptions options) {
+ExitCode run_import(ImportOptions options) {
   if (!options.base.empty()) options.urdf.base = options.base;
   if (!options.tip.empty()) options.urdf.tip = options.tip;
   const ImportedRobot imported = import_urdf(options.urdf);
@@ -81,7 +81,7 @@ double border(const Joint& joint, double value) {
   return is_revolute(joint) ? degrees(value) : millimetres(value);
 }
 
-const char* unit_of(const Joint& joint) {
+const char* unit_word(const Joint& joint) {
   return is_revolute(joint) ? "deg" : "mm";
 }
 
@@ -92,34 +92,35 @@ std::vector<std::string> beyond_limits_sentences(const Chain& chain, const Joint
     const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
     if (joint.endless || (q[i] >= joint.lower - kRounding && q[i] <= joint.upper + kRounding)) continue;
     sentences.push_back(fmt::format("joint {} at {:.6g} {} is beyond its limits, {:.6g} to {:.6g} {}", i + 1,
-                                    border(joint, q[i]), unit_of(joint), border(joint, joint.lower),
-                                    border(joint, joint.upper), unit_of(joint)));
+                                    border(joint, q[i]), unit_word(joint), border(joint, joint.lower),
+                                    border(joint, joint.upper), unit_word(joint)));
   }
   return sentences;
 }
 
 /// 0 in place of what a computer leaves of it.
-double shown(double value) {
+double displayed(double value) {
   return std::abs(value) < 5e-10 ? 0.0 : value;
 }
 
-std::string shown(const std::vector<double>& values, int decimals) {
+std::string displayed(const std::vector<double>& values, int decimals) {
   std::string text;
-  for (const double value : values) text += fmt::format("{}{:.{}f}", text.empty() ? "" : "  ", shown(value), decimals);
+  for (const double value : values)
+    text += fmt::format("{}{:.{}f}", text.empty() ? "" : "  ", displayed(value), decimals);
   return text;
 }
 
-std::vector<double> in_mm(const Eigen::Vector3d& point_m) {
+std::vector<double> components_mm(const Eigen::Vector3d& point_m) {
   return {millimetres(point_m.x()), millimetres(point_m.y()), millimetres(point_m.z())};
 }
 
-std::string name_of(const Robot& robot, std::size_t joint) {
+std::string drawn_name(const Robot& robot, std::size_t joint) {
   return robot.drawing ? robot.drawing->joints[joint].name : std::string();
 }
 
 std::string limits_text(const Joint& joint) {
   if (joint.endless) return "turns on and on";
-  return fmt::format("{:9.6g} .. {:.6g} {}", border(joint, joint.lower), border(joint, joint.upper), unit_of(joint));
+  return fmt::format("{:9.6g} .. {:.6g} {}", border(joint, joint.lower), border(joint, joint.upper), unit_word(joint));
 }
 
 void print_table(const Robot& robot) {
@@ -135,9 +136,9 @@ void print_table(const Robot& robot) {
              "beta deg");
   for (int i = 0; i < chain.size(); ++i) {
     const Joint& row = chain.joints[static_cast<std::size_t>(i)];
-    fmt::print("  {:5} {:12.6f} {:12.4f} {:12.4f} {:12.6f} {:12.6f}\n", i + 1, shown(degrees(row.theta_rad)),
-               shown(millimetres(row.d_m)), shown(millimetres(row.a_m)), shown(degrees(row.alpha_rad)),
-               shown(degrees(row.beta_rad)));
+    fmt::print("  {:5} {:12.6f} {:12.4f} {:12.4f} {:12.6f} {:12.6f}\n", i + 1, displayed(degrees(row.theta_rad)),
+               displayed(millimetres(row.d_m)), displayed(millimetres(row.a_m)), displayed(degrees(row.alpha_rad)),
+               displayed(degrees(row.beta_rad)));
   }
 }
 
@@ -146,7 +147,7 @@ void print_joints(const Robot& robot) {
   fmt::print("{}: {} joints\n\n", robot.name, chain.size());
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const bool reversed = robot.drawing && robot.drawing->joints[i].direction < 0;
-    fmt::print("  joint {}  {:24} {:9}  {}{}\n", i + 1, name_of(robot, i),
+    fmt::print("  joint {}  {:24} {:9}  {}{}\n", i + 1, drawn_name(robot, i),
                is_revolute(chain.joints[i]) ? "revolute" : "prismatic", limits_text(chain.joints[i]),
                reversed ? "  (counts the other way)" : "");
   }
@@ -160,14 +161,16 @@ void print_pose(const Robot& robot, const JointVector& q, const Eigen::Isometry3
   std::string at;
   for (int i = 0; i < robot.chain.size(); ++i) {
     const Joint& joint = robot.chain.joints[static_cast<std::size_t>(i)];
-    at += fmt::format("{}{:.6g} {}", i == 0 ? "" : ", ", border(joint, q[i]), unit_of(joint));
+    at += fmt::format("{}{:.6g} {}", i == 0 ? "" : ", ", border(joint, q[i]), unit_word(joint));
   }
-  fmt::print("\nAt {}:\n  {:32} {}\n", at, "flange in the base frame, mm", shown(in_mm(flange.translation()), 4));
-  fmt::print("  {:32} {}\n", "tool point in the base frame, mm", shown(in_mm(flange * robot.chain.tool_m), 4));
+  fmt::print("\nAt {}:\n  {:32} {}\n", at, "flange in the base frame, mm",
+             displayed(components_mm(flange.translation()), 4));
+  fmt::print("  {:32} {}\n", "tool point in the base frame, mm",
+             displayed(components_mm(flange * robot.chain.tool_m), 4));
   fmt::print("  orientation of the flange\n");
   for (const ControllerAngles& angles : controller_angles(flange.linear())) {
     const int decimals = angles.values.size() == 4 || angles.names.ends_with("rad") ? 6 : 4;
-    fmt::print("    {:30} {}\n", angles.controller + ", " + angles.names, shown(angles.values, decimals));
+    fmt::print("    {:30} {}\n", angles.controller + ", " + angles.names, displayed(angles.values, decimals));
   }
 }
 
@@ -175,16 +178,16 @@ std::string pose_json(const Robot& robot, const JointVector& q, const Eigen::Iso
                       const std::vector<std::string>& warnings) {
   const Eigen::Quaterniond turn(flange.linear());
   nlohmann::ordered_json json;
-  json["position_mm"] = in_mm(flange.translation());
+  json["position_mm"] = components_mm(flange.translation());
   json["quaternion_wxyz"] = {turn.w(), turn.x(), turn.y(), turn.z()};
-  json["tool_position_mm"] = in_mm(flange * robot.chain.tool_m);
+  json["tool_position_mm"] = components_mm(flange * robot.chain.tool_m);
   json["robot"] = robot.name;
   json["joints"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < robot.chain.joints.size(); ++i) {
     const Joint& joint = robot.chain.joints[i];
     nlohmann::ordered_json one{
-        {"joint", i + 1}, {"name", name_of(robot, i)}, {"type", is_revolute(joint) ? "revolute" : "prismatic"}};
-    const std::string unit = unit_of(joint);
+        {"joint", i + 1}, {"name", drawn_name(robot, i)}, {"type", is_revolute(joint) ? "revolute" : "prismatic"}};
+    const std::string unit = unit_word(joint);
     one["at_" + unit] = border(joint, q[static_cast<Eigen::Index>(i)]);
     if (!joint.endless) one["limits_" + unit] = {border(joint, joint.lower), border(joint, joint.upper)};
     json["joints"].push_back(one);
@@ -232,7 +235,7 @@ ExitCode compare(const ShowOptions& options, const Robot& robot) {
   return comparison.agrees ? ExitCode::done : ExitCode::contradiction;
 }
 
-ExitCode run(const ShowOptions& options) {
+ExitCode run_show(const ShowOptions& options) {
   const Robot robot = load_robot(options.file);
   if (!options.compare.empty()) return compare(options, robot);
   const JointVector q =
@@ -262,7 +265,7 @@ void add_import(CLI::App& robot, ExitCode& exit_code) {
   command->add_option("--tip", options->tip, "link that the arm ends at: the flange (default: the only one it can be)");
   command->add_flag("--force", options->force,
                     "overwrite a file that demecal did not write, or that was changed since");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_import(*options); });
 }
 
 void add_show(CLI::App& robot, ExitCode& exit_code) {
@@ -280,7 +283,7 @@ void add_show(CLI::App& robot, ExitCode& exit_code) {
       ->excludes("--compare");
   add_force(*command, options->force);
   command->add_flag("--json", options->json, "one line of JSON: the pose, or the comparison");
-  command->callback([options, &exit_code] { exit_code = run(*options); });
+  command->callback([options, &exit_code] { exit_code = run_show(*options); });
 }
 
 }  // namespace

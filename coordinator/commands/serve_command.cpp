@@ -72,7 +72,7 @@ std::vector<std::string> run_arguments(const ServeRequest& request) {
   return arguments;
 }
 
-ExitCode run(const ServeRequest& request) {
+ExitCode run_serve(const ServeRequest& request) {
   UserServerOptions options;
   options.endpoint = endpoint_of(request);
   if (!request.token_file.empty()) options.tokens = tokens_in(request.token_file);
@@ -132,7 +132,7 @@ void add_serve(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(0.001, 8760.0))
       ->capture_default_str();
   add_worker_arguments(*command, request->workers);
-  command->callback([request, &exit_code] { exit_code = run(*request); });
+  command->callback([request, &exit_code] { exit_code = run_serve(*request); });
 }
 
 }  // namespace demecal

@@ -40,7 +40,7 @@ struct StudyRequest {
 };
 
 /// The axes of the options and of the grid file.
-std::vector<GridAxis> axes_of(const StudyRequest& request) {
+std::vector<GridAxis> grid_axes(const StudyRequest& request) {
   std::vector<GridAxis> axes;
   if (!request.grid_file.empty()) axes = load_grid(request.grid_file);
   for (const std::string& option : request.set) axes.push_back(read_axis(option));
@@ -86,7 +86,7 @@ void print_progress(const Study& study, const StudyRun& run) {
              run.validation_mm.value_or(run.calibration_mm.value_or(0.0)), run.nodes, run.wall_s);
 }
 
-void write(const std::string& folder, const Study& study) {
+void write_study(const std::string& folder, const Study& study) {
   write_result(folder, "study.csv", study_csv(study));
   write_result(folder, "study.json", to_json(study, 1));
 }
@@ -107,8 +107,8 @@ ExitCode print_end(const StudyRequest& request, const Study& study, RunEnd end) 
   return study.interrupted ? ExitCode::interrupted : ExitCode::done;
 }
 
-ExitCode run(const StudyRequest& request) {
-  const std::vector<GridAxis> axes = axes_of(request);
+ExitCode calibrate_grid(const StudyRequest& request) {
+  const std::vector<GridAxis> axes = grid_axes(request);
   const std::vector<GridCell> cells = grid_cells(request.job_file, axes);
   const Job& first = cells.front().job;
   const CheckedData checked = request.data_file.empty()
@@ -124,21 +124,21 @@ ExitCode run(const StudyRequest& request) {
     study.runs = reached.runs;
     study.interrupted = study.runs.size() < study.cells.size() * study.seeds.size();
     if (!request.quiet) print_progress(study, study.runs.back());
-    write(request.out, study);
+    write_study(request.out, study);
   };
   const StudyOutcome outcome = run_study(data, jobs_of(request, cells), study.seeds, worker_pool_maker(request.workers),
                                          watch_for_interrupt(), options, on_run);
   study.interrupted = outcome.end != RunEnd::finished;
   study.islands = outcome.fronts.size();
   study.blocks = building_blocks(outcome.fronts);
-  write(request.out, study);
+  write_study(request.out, study);
   return print_end(request, study, outcome.end);
 }
 
 /// What is wrong with an option's value is a wrong argument.
 ExitCode run_or_refuse(const StudyRequest& request) {
   try {
-    return run(request);
+    return calibrate_grid(request);
   } catch (const InputError& error) {
     if (!error.where().file.starts_with("--set ")) throw;
     fmt::print(stderr, "{}\n", error.what());

@@ -32,7 +32,7 @@ constexpr std::array<const char*, 12> kOffered{
     "report.html",     "report.json", "model.yaml", "model-best.yaml", "certificate.html", "certificate.pdf",
     "certificate.xml", "history.csv", "fronts.csv", "distal.csv",      "pose-errors.csv",  "events.jsonl"};
 
-[[noreturn]] void fail(const std::string& what) {
+[[noreturn]] void fail_with_errno(const std::string& what) {
   throw std::system_error(errno, std::generic_category(), what);
 }
 
@@ -41,21 +41,21 @@ OwnedDescriptor open_below(int folder, const std::string& name, int flags) {
 }
 
 OwnedDescriptor made_below(int folder, const std::string& name) {
-  if (::mkdirat(folder, name.c_str(), kOwnFolder) != 0 && errno != EEXIST) fail("a folder cannot be made");
+  if (::mkdirat(folder, name.c_str(), kOwnFolder) != 0 && errno != EEXIST) fail_with_errno("a folder cannot be made");
   OwnedDescriptor made = open_below(folder, name, kFolder);
-  if (made.get() < 0) fail("a folder cannot be opened");
+  if (made.get() < 0) fail_with_errno("a folder cannot be opened");
   return made;
 }
 
 /// The size of a regular file; nothing of anything else.
-std::optional<std::uint64_t> size_of(int descriptor) {
+std::optional<std::uint64_t> regular_file_size(int descriptor) {
   struct stat found {};
   if (descriptor < 0 || ::fstat(descriptor, &found) != 0 || !S_ISREG(found.st_mode)) return std::nullopt;
   return static_cast<std::uint64_t>(found.st_size);
 }
 
 /// The entries of a folder that are called by plain names.
-std::vector<std::string> names_in(const OwnedDescriptor& folder) {
+std::vector<std::string> plain_names(const OwnedDescriptor& folder) {
   std::vector<std::string> names;
   const int again = folder.get() < 0 ? -1 : ::openat(folder.get(), ".", kFolder);
   DIR* const listing = again < 0 ? nullptr : ::fdopendir(again);
@@ -70,15 +70,15 @@ std::vector<std::string> names_in(const OwnedDescriptor& folder) {
 
 std::vector<ListedFile> files_in(const OwnedDescriptor& folder) {
   std::vector<ListedFile> files;
-  for (const std::string& name : names_in(folder)) {
+  for (const std::string& name : plain_names(folder)) {
     const OwnedDescriptor file = open_below(folder.get(), name, kToRead);
-    if (const auto bytes = size_of(file.get())) files.push_back({name, *bytes});
+    if (const auto bytes = regular_file_size(file.get())) files.push_back({name, *bytes});
   }
   return files;
 }
 
 /// Bytes of the file from `begin` on.
-std::string bytes_of(int descriptor, std::uint64_t begin, std::uint64_t count) {
+std::string read_bytes(int descriptor, std::uint64_t begin, std::uint64_t count) {
   std::string bytes(count, '\0');
   std::size_t done = 0;
   while (done < bytes.size()) {
@@ -93,13 +93,13 @@ std::string bytes_of(int descriptor, std::uint64_t begin, std::uint64_t count) {
 /// The file appears whole or not at all.
 void write_whole(int folder, const std::string& name, std::string_view bytes) {
   const OwnedDescriptor file = open_below(folder, kBeingWritten, kToWrite | O_TRUNC);
-  if (file.get() < 0) fail("a file cannot be written");
+  if (file.get() < 0) fail_with_errno("a file cannot be written");
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t put = ::write(file.get(), bytes.data() + done, bytes.size() - done);
-    if (put <= 0) fail("a file cannot be written");
+    if (put <= 0) fail_with_errno("a file cannot be written");
     done += static_cast<std::size_t>(put);
   }
-  if (::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fail("a file cannot be written");
+  if (::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fail_with_errno("a file cannot be written");
 }
 
 }  // namespace
@@ -127,9 +127,9 @@ JobFolders::JobFolders(const std::string& root) : root_(std::filesystem::absolut
 
 std::vector<JobId> JobFolders::jobs() const {
   std::vector<JobId> found;
-  for (const std::string& user : names_in(descriptor_)) {
+  for (const std::string& user : plain_names(descriptor_)) {
     const OwnedDescriptor folder = open_below(descriptor_.get(), user, kFolder);
-    for (const std::string& job : names_in(folder)) {
+    for (const std::string& job : plain_names(folder)) {
       if (open_below(folder.get(), job, kFolder).get() >= 0) found.push_back({user, job});
     }
   }
@@ -140,7 +140,7 @@ OwnedDescriptor JobFolders::folder(const JobId& id) const {
   DEMECAL_CHECK(is_plain_name(id.user) && is_plain_name(id.job), "user=" << id.user << " job=" << id.job);
   const OwnedDescriptor user = open_below(descriptor_.get(), id.user, kFolder);
   OwnedDescriptor job = open_below(user.get(), id.job, kFolder);
-  if (user.get() < 0 || job.get() < 0) fail("the job's folder cannot be opened");
+  if (user.get() < 0 || job.get() < 0) fail_with_errno("the job's folder cannot be opened");
   return job;
 }
 
@@ -168,9 +168,9 @@ std::string JobFolders::input(const JobId& id, const std::string& name) const {
   DEMECAL_CHECK(is_plain_name(name), "name=" << name);
   const OwnedDescriptor inputs = open_below(folder(id).get(), kInput, kFolder);
   const OwnedDescriptor file = open_below(inputs.get(), name, kToRead);
-  const auto size = size_of(file.get());
-  if (!size) fail("an uploaded file cannot be read");
-  return bytes_of(file.get(), 0, *size);
+  const auto size = regular_file_size(file.get());
+  if (!size) fail_with_errno("an uploaded file cannot be read");
+  return read_bytes(file.get(), 0, *size);
 }
 
 void JobFolders::put_input(const JobId& id, const std::string& name, std::string_view bytes) const {
@@ -194,7 +194,7 @@ std::shared_ptr<AnsweredFile> JobFolders::open_result(const JobId& id, const std
   if (!is_offered(name)) return nullptr;
   const OwnedDescriptor results = open_below(folder(id).get(), kResults, kFolder);
   OwnedDescriptor file = open_below(results.get(), name, kToRead);
-  const auto size = size_of(file.get());
+  const auto size = regular_file_size(file.get());
   if (!size) return nullptr;
   return std::make_shared<AnsweredFile>(file.release(), *size);
 }
@@ -202,30 +202,30 @@ std::shared_ptr<AnsweredFile> JobFolders::open_result(const JobId& id, const std
 std::optional<std::string> JobFolders::result(const JobId& id, const std::string& name, std::uint64_t most) const {
   const std::shared_ptr<AnsweredFile> file = open_result(id, name);
   if (!file || file->bytes() > most) return std::nullopt;
-  return bytes_of(file->descriptor(), 0, file->bytes());
+  return read_bytes(file->descriptor(), 0, file->bytes());
 }
 
 bool JobFolders::can_go_on(const JobId& id) const {
   const OwnedDescriptor results = open_below(folder(id).get(), kResults, kFolder);
-  return size_of(open_below(results.get(), "run.journal", kToRead).get()).has_value();
+  return regular_file_size(open_below(results.get(), "run.journal", kToRead).get()).has_value();
 }
 
 OwnedDescriptor JobFolders::open_terminal(const JobId& id, bool keep) const {
   OwnedDescriptor file = open_below(folder(id).get(), kTerminal, kToWrite | O_APPEND | (keep ? 0 : O_TRUNC));
-  if (file.get() < 0) fail("what a run says cannot be written");
+  if (file.get() < 0) fail_with_errno("what a run says cannot be written");
   return file;
 }
 
 std::string JobFolders::terminal(const JobId& id, std::uint64_t most) const {
   const OwnedDescriptor file = open_below(folder(id).get(), kTerminal, kToRead);
-  const std::uint64_t size = size_of(file.get()).value_or(0), count = std::min(size, most);
-  return count == 0 ? "" : bytes_of(file.get(), size - count, count);
+  const std::uint64_t size = regular_file_size(file.get()).value_or(0), count = std::min(size, most);
+  return count == 0 ? "" : read_bytes(file.get(), size - count, count);
 }
 
 JobRecord JobFolders::record(const JobId& id) const {
   const OwnedDescriptor file = open_below(folder(id).get(), kRecord, kToRead);
-  const auto size = size_of(file.get());
-  return size && *size <= kMostOfRecord ? parse_record(bytes_of(file.get(), 0, *size)) : JobRecord{};
+  const auto size = regular_file_size(file.get());
+  return size && *size <= kMostOfRecord ? parse_record(read_bytes(file.get(), 0, *size)) : JobRecord{};
 }
 
 void JobFolders::save(const JobId& id, const JobRecord& record) const {

@@ -38,7 +38,7 @@ int status_of(Refusal::Kind kind) {
 }
 
 /// JSON of texts that may hold any bytes.
-std::string to_string(const Json& json) {
+std::string json_body(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
@@ -50,13 +50,13 @@ std::string last_line(const std::string& text) {
                      end - (begin == std::string::npos ? 0 : begin + 1) + 1);
 }
 
-Json listed(const std::vector<ListedFile>& files) {
+Json files_json(const std::vector<ListedFile>& files) {
   Json list = Json::array();
   for (const ListedFile& file : files) list.push_back({{"name", file.name}, {"bytes", file.bytes}});
   return list;
 }
 
-std::string type_of(const std::string& name) {
+std::string content_type(const std::string& name) {
   if (name.ends_with(".html")) return "text/html; charset=utf-8";
   if (name.ends_with(".json")) return "application/json";
   if (name.ends_with(".xml")) return "application/xml";
@@ -107,7 +107,7 @@ ServiceAnswer JobService::answer_checked(const ServiceRequest& request) {
   const JobId id{request.user, path[1]};
   queue_.record(id);
   if (path.size() == 3 && path[2] == "terminal")
-    return {.body = to_string({{"text", folders_.terminal(id, kMostOfTerminal)}})};
+    return {.body = json_body({{"text", folders_.terminal(id, kMostOfTerminal)}})};
   if (path.size() == 4 && path[2] == "results") return result(id, request);
   refuse_unknown();
 }
@@ -125,14 +125,14 @@ std::string JobService::list(const std::string& user) const {
                     {"ended_s", record.ended_s},
                     {"goes_on", record.state == JobState::interrupted && folders_.can_go_on(id)},
                     {"said", last_line(folders_.terminal(id, kMostOfLastLine))},
-                    {"files", listed(folders_.inputs(id))},
-                    {"results", listed(folders_.results(id))}});
+                    {"files", files_json(folders_.inputs(id))},
+                    {"results", files_json(folders_.results(id))}});
   }
   const Json limits{{"jobs", options_.queue.jobs_each},
                     {"files", options_.files_each},
                     {"bytes_of_job", options_.bytes_each},
                     {"bytes_of_yaml", options_.yaml_bytes}};
-  return to_string({{"demecal_jobs", 1},
+  return json_body({{"demecal_jobs", 1},
                     {"user", user},
                     {"signs_in", options_.signs_in},
                     {"limits", limits},
@@ -154,7 +154,7 @@ ServiceAnswer JobService::result(const JobId& id, const ServiceRequest& request)
   ServiceAnswer answer;
   answer.file = folders_.open_result(id, name);
   if (!answer.file) refuse_unknown();
-  answer.type = type_of(name);
+  answer.type = content_type(name);
   answer.file_name = id.job + '-' + name;
   answer.is_shown = name.ends_with(".html") && !request.parameters.contains("save");
   return answer;

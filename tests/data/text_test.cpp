@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "data/text.hpp"
@@ -80,6 +81,15 @@ TEST(NearestName, IgnoresCaseAndTakesTheFirstOfEquals) {
   EXPECT_EQ(nearest_name("X_MM", names), "x_mm");
   EXPECT_EQ(nearest_name("q7_deg", names), "q1_deg");
   EXPECT_EQ(nearest_name("q7_deg", {}), "");
+}
+
+TEST(Words, AreJoinedAndCountedAsPeopleWriteThem) {
+  EXPECT_EQ(joined_words(std::vector<std::string>{"a", "", "b c"}, ", "), "a, , b c");
+  EXPECT_EQ(joined_words(std::vector<std::string>{"a"}, ", "), "a");
+  EXPECT_EQ(joined_words({}, ", "), "");
+  EXPECT_EQ(counted(0, "pose"), "0 poses");
+  EXPECT_EQ(counted(1, "pose"), "1 pose");
+  EXPECT_EQ(counted(12, "accept pose"), "12 accept poses");
 }
 
 }  // namespace

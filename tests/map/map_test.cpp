@@ -90,6 +90,10 @@ TEST(SourceTree, DefinesNoTypeTwice) {
   EXPECT_THAT(check_types_once(without_tests()), IsEmpty());
 }
 
+TEST(SourceTree, HasNoNameInTheAnonymousNamespacesOfTwoFiles) {
+  EXPECT_THAT(check_anonymous_once(without_tests()), IsEmpty());
+}
+
 TEST(SourceTree, SaysNothingTwice) {
   EXPECT_THAT(check_passages_once(without_tests()), IsEmpty());
 }

@@ -57,6 +57,11 @@ Violations check_names(const Source& source);
 /// ones too: a reader who looks a name up finds one thing, and the linker never takes one of two.
 Violations check_types_once(const std::vector<Source>& sources);
 
+/// No function, constant or type that a file declares in an anonymous namespace has the name of one in another file's:
+/// a name read anywhere, in a profile or a debugger too, is one thing. Overloads of one file and aliases that stand for
+/// the same are one thing.
+Violations check_anonymous_once(const std::vector<Source>& sources);
+
 /// No passage of more than 12 lines of code stands twice in the sources. White space, comments, includes and lines
 /// without a word do not count.
 Violations check_passages_once(const std::vector<Source>& sources);

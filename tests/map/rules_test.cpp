@@ -179,6 +179,42 @@ TEST(TypeRule, LeavesApartWhatNoLinkerMixesUp) {
   }
 }
 
+Source with_anonymous(const std::string& path, const std::string& declarations) {
+  return {path, "namespace demecal {\nnamespace {\n" + declarations + "\n}  // namespace\n}\n"};
+}
+
+const Source kRows = with_anonymous("common/data/rows.cpp",
+                                    "using Rows = std::vector<int>;\n"
+                                    "constexpr double kNear = 0.5, kFar[] = {1.0, 2.0};\n"
+                                    "struct Row { int at = 0; };\n"
+                                    "template <class T>\nint rows_of(const T& all, int from = 0) {\n"
+                                    "  const int count = 0;\n  return sum(all, count);\n}\n"
+                                    "int rows_of();\n");
+
+TEST(AnonymousRule, FindsANameThatTwoFilesDeclare) {
+  for (const char* const again :
+       {"double rows_of(const std::function<int(int)>& row);", "int rows_of() {\n  return 1;\n}",
+        "[[nodiscard]] Rows<int> rows_of(int a = kNearest) {}", "constexpr int kNear{3};", "std::array<int, 2> kFar;",
+        "const auto kNear = [](int a) { return a; };", "constexpr int kNearest = f(1, 2), kFar = 3;",
+        "constexpr char kNearest[] = {'a', 'b'}, kFar[2] = {};", "using Rows = std::set<int>;", "struct Row;",
+        "enum class Row : int { a };", "namespace inner {\nint rows_of(int row) {}\n}"}) {
+    EXPECT_THAT(check_anonymous_once({kRows, with_anonymous("worker/rows.cpp", again)}), SizeIs(1)) << again;
+  }
+}
+
+TEST(AnonymousRule, LeavesApartWhatIsOneThingOrNoNameOfTheNamespace) {
+  for (const char* const other :
+       {"using Rows = std::vector<int>;", "using other::Row;", "namespace kNear = other::near;",
+        "int sum(int count) {}", "int Table::rows_of() {}",
+        "struct Table {\n  int rows_of() { return 1; }\n  int kFar = 1;\n};",
+        "bool operator==(const A& a, const A& b) {\n  const int kNear = 1;\n}", "// int rows_of();",
+        "const std::string kText = \"int rows_of();\";", "#define kNear 3", "static_assert(kNear(1));"}) {
+    EXPECT_THAT(check_anonymous_once({kRows, with_anonymous("worker/rows.cpp", other)}), IsEmpty()) << other;
+  }
+  const Source named{"worker/rows.cpp", "namespace demecal {\nnamespace {\nint other();\n}\nint rows_of() {}\n}\n"};
+  EXPECT_THAT(check_anonymous_once({kRows, named}), IsEmpty());
+}
+
 std::string lines_from(int first, int count) {
   std::string text;
   for (int i = first; i < first + count; ++i) text += "  total += weight[" + std::to_string(i) + "];\n";

@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "fitting/levenberg_marquardt.hpp"
 #include "random/random_stream.hpp"
@@ -52,6 +54,20 @@ TEST(Distributions, CountValuesBelowAMedian) {
       EXPECT_NEAR(median_coverage(count, rank), 1.0 - 2.0 * below * std::pow(0.5, static_cast<double>(count)), 1e-13);
       ways *= static_cast<double>(count - rank) / static_cast<double>(rank + 1);
     }
+  }
+}
+
+TEST(Quantile, IsAValueWithAsLargeAShareBelowInWhateverOrder) {
+  RandomStream stream{73};
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<double> values(1 + stream.index(30));
+    for (double& value : values) value = std::floor(10.0 * stream.real());
+    const double share = trial % 10 == 0 ? 1.0 : stream.real(), found = quantile(values, share);
+    const double place = share * static_cast<double>(values.size() - 1);
+    EXPECT_LE(static_cast<double>(std::ranges::count_if(values, [&](double value) { return value < found; })), place);
+    EXPECT_GT(static_cast<double>(std::ranges::count_if(values, [&](double value) { return value <= found; })), place);
+    const std::vector<double> turned(values.rbegin(), values.rend());
+    EXPECT_EQ(quantile(turned, share), found);
   }
 }
 
