@@ -103,9 +103,9 @@ class DataChecker {
                       .if_changed_mm = millimetres(move.if_changed_m)};
       for (std::size_t i = row; i < whole_.rows.size(); ++i) finding.poses.push_back(id_of(whole_.rows[i]));
       finding.sentence = fmt::format(
-          "The instrument (or the robot's base) moved before line {} ({}): from there on points lie {} elsewhere {}. "
+          "The instrument (or the robot's base) moved before line {}{}: from there on points lie {} elsewhere {}. "
           "Treat the poses before and after as two data sets, or measure again.",
-          pose.line, pose.pose_id, distance_text(move.shift_m), before_and_after(move.as_given_m, move.if_changed_m));
+          pose.line, name_beside_line(pose), distance_text(move.shift_m), before_and_after(move.as_given_m, move.if_changed_m));
       add(std::move(finding));
     }
   }
@@ -131,10 +131,10 @@ class DataChecker {
     }
     const Joint& joint = whole_.chain.joints[static_cast<std::size_t>(move.joint)];
     finding.sentence = fmt::format(
-        "The zero of joint {} changed before line {} ({}), by {}, as after a collision or a new mastering{}: from "
+        "The zero of joint {} changed before line {}{}, by {}, as after a collision or a new mastering{}: from "
         "there "
         "on points lie {} elsewhere {}. Treat the poses before and after as two data sets, or measure again.",
-        move.joint + 1, there.line, there.pose_id,
+        move.joint + 1, there.line, name_beside_line(there),
         is_revolute(joint) ? fmt::format("{:.3f} deg", degrees(std::abs(move.by))) : distance_text(std::abs(move.by)),
         move.joint == 0 ? ", or the instrument turned about the axis of joint 1" : "", distance_text(move.shift_m),
         before_and_after(move.as_given_m, move.if_changed_m));

@@ -172,9 +172,9 @@ class ContactSearch {
         .poses = {pose.pose_id},
         .as_given_mm = millimetres(wrong.error_m),
         .if_changed_mm = millimetres(wrong.elsewhere_m),
-        .sentence = fmt::format("Line {} ({}) names contact '{}', but lies {} from it and {} from '{}': most likely "
+        .sentence = fmt::format("Line {}{} names contact '{}', but lies {} from it and {} from '{}': most likely "
                                 "it touched '{}'. Correct the name, or exclude the pose.",
-                                pose.line, pose.pose_id, pose.contact, distance_text(wrong.error_m),
+                                pose.line, name_beside_line(pose), pose.contact, distance_text(wrong.error_m),
                                 distance_text(wrong.elsewhere_m), wrong.fits, wrong.fits)};
   }
 
@@ -184,9 +184,9 @@ class ContactSearch {
         .kind = FindingKind::outlier,
         .poses = {pose.pose_id},
         .as_given_mm = millimetres(error_m),
-        .sentence = fmt::format("Line {} ({}) lies {} from contact '{}', where the others agree within {}: the tool "
+        .sentence = fmt::format("Line {}{} lies {} from contact '{}', where the others agree within {}: the tool "
                                 "was not seated, or its joint values belong to another moment.",
-                                pose.line, pose.pose_id, distance_text(error_m), pose.contact, distance_text(far_m_))};
+                                pose.line, name_beside_line(pose), distance_text(error_m), pose.contact, distance_text(far_m_))};
   }
 
   const DataSet& data_;

@@ -116,7 +116,7 @@ class Contradictions {
     if (!order.poses.empty()) {
       const bool from_begin = order.poses.front() == whole_.rows.front().pose;
       const MeasuredPose& pose = data_.poses[from_begin ? order.poses.back() : order.poses.front()];
-      which = fmt::format(" (line {}, {})", pose.line, pose.pose_id);
+      which = fmt::format(" (line {}{})", pose.line, name_beside_line(pose));
     }
     add({.kind = kind,
          .poses = ids_of(order.poses),

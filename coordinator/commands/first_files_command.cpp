@@ -114,8 +114,8 @@ ExitCode run(const NewRequest& request) {
   for (const std::string& sentence : draft.assumed) fmt::print("  {}\n", sentence);
   for (const std::string& note : arm.notes) fmt::print("Check in robot.yaml: {}\n", note);
   fmt::print("Check in robot.yaml: dimensions, signs and offsets of joints, tool_mm.\n");
-  if (refuses(checked, false)) return ExitCode::contradiction;
-  fmt::print("{}", to_terminal(data_check_entry(checked.check)));
+  if (refuses(checked, false, ShownFindings::all)) return ExitCode::contradiction;
+  fmt::print("{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   fmt::print("Next: demecal calibrate {}/job.yaml --out {}/result\n", request.folder, request.folder);
   return ExitCode::done;
 }
