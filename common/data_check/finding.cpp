@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 27> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 28> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -39,6 +39,7 @@ constexpr std::array<KindRow, 27> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::shared_poses, "shared_poses", false},
                                           {FindingKind::typing_error, "typing_error", false},
                                           {FindingKind::wrong_contact, "wrong_contact", false},
+                                          {FindingKind::wrong_length, "wrong_length", true},
                                           {FindingKind::wrong_orientation, "wrong_orientation", false},
                                           {FindingKind::outlier, "outlier", false},
                                           {FindingKind::many_outliers, "many_outliers", true},

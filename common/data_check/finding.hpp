@@ -32,6 +32,7 @@ enum class FindingKind {
   shared_poses,
   typing_error,
   wrong_contact,
+  wrong_length,
   wrong_orientation,
   outlier,
   many_outliers,

@@ -90,10 +90,15 @@ std::vector<Finding> find_shared_poses(const DataSet& data);
 /// with noise does not, unless its digits are as coarse as the noise.
 std::vector<Finding> take_out_copies(DataSet& data);
 
-/// Checks data that contacts alone tell of: tool and links are fitted to the calibration poses, robustly. Where poses
-/// then disagree by more than any arm errs, joints' signs are tried, and the description is contradicted. Else single
-/// poses are named, of all sets.
+/// Checks data that contacts alone tell of. The nominal arm with its tool fitted, known lengths left aside, must hold
+/// poses together; where it does not, joints are read in other ways, and one that does is named. Then known lengths are
+/// held against it. Then links are fitted too: where poses disagree by more than any arm errs the description is
+/// contradicted, else single poses are named, of all sets.
 std::vector<Finding> check_contacts(const DataSet& data);
+
+/// Known lengths that are not those of this arm's contacts by far, in another unit or by another factor. `robot`
+/// predicts the tool, by lengths of its own, and leaves poses of one contact `apart_m` from their middle.
+std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m);
 
 /// Poses that the contact they name does not fit: those that fit another one, as wrong_contact, others as outlier.
 /// `robot` predicts the tool.
