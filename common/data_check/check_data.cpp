@@ -48,8 +48,9 @@ class DataChecker {
       for (Finding& finding : check_contacts(data_)) add(std::move(finding));
     trial_ = calibration_rows();
     if (trial_.rows.size() < kFewestRows) return std::move(check_);
-    const TrialFit placed = place();
+    TrialFit placed = place();
     if (auto computed = find_computed_positions(trial_, placed)) add(std::move(*computed));
+    note_axes(placed);
     for (Finding& finding : find_contradictions(data_, {whole_, trial_}, placed, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     note_moves();
@@ -88,6 +89,15 @@ class DataChecker {
     return searched;
   }
 
+  void note_axes(TrialFit& placed) {
+    CheckedRows rows{whole_, trial_};
+    auto axes = find_wrong_axes(data_, rows, placed, fit_);
+    if (!axes) return;
+    whole_ = std::move(rows.whole);
+    trial_ = std::move(rows.trial);
+    add(std::move(*axes));
+  }
+
   /// Moves of the instrument among the calibration poses; the other rows get the station of their neighbours.
   void note_moves() {
     const std::vector<InstrumentMove> moves = find_moves(trial_, fit_);
@@ -105,7 +115,8 @@ class DataChecker {
       finding.sentence = fmt::format(
           "The instrument (or the robot's base) moved before line {}{}: from there on points lie {} elsewhere {}. "
           "Treat the poses before and after as two data sets, or measure again.",
-          pose.line, name_beside_line(pose), distance_text(move.shift_m), before_and_after(move.as_given_m, move.if_changed_m));
+          pose.line, name_beside_line(pose), distance_text(move.shift_m),
+          before_and_after(move.as_given_m, move.if_changed_m));
       add(std::move(finding));
     }
   }

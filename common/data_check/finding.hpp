@@ -24,6 +24,7 @@ enum class FindingKind {
   instrument_moved,
   joint_zero_changed,
   computed_positions,
+  wrong_axes,
   set_in_other_frame,
   wrong_tool,
   constant_joint,

@@ -48,6 +48,10 @@ std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, 
 /// hundred thousandth of its reach: then nobody measured them. `placed`: the fit of base and tools to `trial`.
 std::optional<Finding> find_computed_positions(const Trial& trial, const TrialFit& placed);
 
+/// Axes of the instrument that are stretched against each other, or not square, by more than base, tools, links, gears
+/// and elasticity of the arm can explain. Rows come back without that, `placed` and `fit` fitted to them.
+std::optional<Finding> find_wrong_axes(const DataSet& data, CheckedRows& rows, TrialFit& placed, TrialFit& fit);
+
 /// In data said to be in the base's frame: axes, a turn of joint 1, or another frame where the fitted base is not
 /// there.
 std::vector<Finding> find_other_base(const DataSet& data, const TrialFit& fit);
