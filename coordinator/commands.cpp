@@ -106,13 +106,13 @@ std::string today() {
   return fmt::format("{:04}-{:02}-{:02}", day.tm_year + 1900, day.tm_mon + 1, day.tm_mday);
 }
 
-bool refuses(const CheckedData& checked, bool force) {
+bool refuses(const CheckedData& checked, bool force, ShownFindings shown) {
   if (force || checked.check.verdict() != DataVerdict::contradiction) return false;
   fmt::print(
       stderr,
       "{}: the data and the robot's description contradict each other:\n{}Nothing was fitted. Correct the files, or "
       "go on all the same with --force.\n",
-      checked.data.file, to_terminal(data_check_entry(checked.check)));
+      checked.data.file, to_terminal(data_check_entry(checked.check), shown));
   return true;
 }
 
@@ -160,7 +160,7 @@ void add_force(CLI::App& command, bool& force) {
 void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked) {
   if (checked.check.verdict() != DataVerdict::contradiction)
     fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file,
-               to_terminal(data_check_entry(checked.check)));
+               to_terminal(data_check_entry(checked.check), ShownFindings::ten));
   const Report report = refusal_report(checked.data, job, checked.check);
   write_result(folder, "report.json", to_json(report));
   write_result(folder, "report.html", report_html(report, {}));

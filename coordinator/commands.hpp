@@ -15,6 +15,7 @@
 #include "data_check/finding.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/stations.hpp"
+#include "terminal/report_text.hpp"
 
 namespace demecal {
 
@@ -81,7 +82,7 @@ CheckedData load_checked_as_one_set(const std::string& path);
 std::string today();
 
 /// Whether the data contradict the robot's description, and nobody forces the command to go on: said on standard error.
-bool refuses(const CheckedData& checked, bool force);
+bool refuses(const CheckedData& checked, bool force, ShownFindings shown);
 
 /// Throws InputError where poses touch something or were measured from several stations: `what` learns from measured
 /// points of one alone.

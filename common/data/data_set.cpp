@@ -42,6 +42,18 @@ std::string_view to_string(PoseSet set) {
   return "";
 }
 
+std::string line_name(std::size_t line) {
+  return "line " + std::to_string(line);
+}
+
+bool names_itself(const MeasuredPose& pose) {
+  return pose.pose_id != line_name(pose.line);
+}
+
+std::string name_beside_line(const MeasuredPose& pose) {
+  return names_itself(pose) ? " (" + pose.pose_id + ")" : "";
+}
+
 std::vector<std::size_t> poses_of(const DataSet& data, PoseSet set) {
   std::vector<std::size_t> indices;
   for (std::size_t i = 0; i < data.poses.size(); ++i) {

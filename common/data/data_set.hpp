@@ -53,6 +53,13 @@ struct MeasuredPose {
   std::size_t line = 0;         ///< where it stands in its file
 };
 
+/// As a pose is called that its file does not name, and whether its file names it.
+std::string line_name(std::size_t line);
+bool names_itself(const MeasuredPose& pose);
+
+/// What stands beside a pose's line in a sentence: " (P7)"; nothing where its file names no poses.
+std::string name_beside_line(const MeasuredPose& pose);
+
 /// Whether positions are given in the robot's base frame or in the instrument's own.
 enum class Frame { base, sensor };
 

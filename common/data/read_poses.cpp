@@ -246,7 +246,7 @@ MeasuredPose read_pose(const FoundColumns& columns, const PoseRows& rows) {
   if (columns.temperature) pose.temperature_celsius = read_temperature(*columns.temperature, rows);
   if (columns.time) pose.time_s = rows.number(*columns.time);
   if (columns.set) pose.set = read_pose_set(*columns.set, rows);
-  pose.pose_id = columns.pose ? read_pose_id(*columns.pose, rows) : "line " + std::to_string(rows.line());
+  pose.pose_id = columns.pose ? read_pose_id(*columns.pose, rows) : line_name(rows.line());
   if (columns.target) pose.target = rows.text(*columns.target);
   return pose;
 }

@@ -48,8 +48,9 @@ class DataChecker {
       for (Finding& finding : check_contacts(data_)) add(std::move(finding));
     trial_ = calibration_rows();
     if (trial_.rows.size() < kFewestRows) return std::move(check_);
-    const TrialFit placed = place();
+    TrialFit placed = place();
     if (auto computed = find_computed_positions(trial_, placed)) add(std::move(*computed));
+    note_axes(placed);
     for (Finding& finding : find_contradictions(data_, {whole_, trial_}, placed, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     note_moves();
@@ -88,6 +89,15 @@ class DataChecker {
     return searched;
   }
 
+  void note_axes(TrialFit& placed) {
+    CheckedRows rows{whole_, trial_};
+    auto axes = find_wrong_axes(data_, rows, placed, fit_);
+    if (!axes) return;
+    whole_ = std::move(rows.whole);
+    trial_ = std::move(rows.trial);
+    add(std::move(*axes));
+  }
+
   /// Moves of the instrument among the calibration poses; the other rows get the station of their neighbours.
   void note_moves() {
     const std::vector<InstrumentMove> moves = find_moves(trial_, fit_);
@@ -103,9 +113,10 @@ class DataChecker {
                       .if_changed_mm = millimetres(move.if_changed_m)};
       for (std::size_t i = row; i < whole_.rows.size(); ++i) finding.poses.push_back(id_of(whole_.rows[i]));
       finding.sentence = fmt::format(
-          "The instrument (or the robot's base) moved before line {} ({}): from there on points lie {} elsewhere {}. "
+          "The instrument (or the robot's base) moved before line {}{}: from there on points lie {} elsewhere {}. "
           "Treat the poses before and after as two data sets, or measure again.",
-          pose.line, pose.pose_id, distance_text(move.shift_m), before_and_after(move.as_given_m, move.if_changed_m));
+          pose.line, name_beside_line(pose), distance_text(move.shift_m),
+          before_and_after(move.as_given_m, move.if_changed_m));
       add(std::move(finding));
     }
   }
@@ -131,10 +142,10 @@ class DataChecker {
     }
     const Joint& joint = whole_.chain.joints[static_cast<std::size_t>(move.joint)];
     finding.sentence = fmt::format(
-        "The zero of joint {} changed before line {} ({}), by {}, as after a collision or a new mastering{}: from "
+        "The zero of joint {} changed before line {}{}, by {}, as after a collision or a new mastering{}: from "
         "there "
         "on points lie {} elsewhere {}. Treat the poses before and after as two data sets, or measure again.",
-        move.joint + 1, there.line, there.pose_id,
+        move.joint + 1, there.line, name_beside_line(there),
         is_revolute(joint) ? fmt::format("{:.3f} deg", degrees(std::abs(move.by))) : distance_text(std::abs(move.by)),
         move.joint == 0 ? ", or the instrument turned about the axis of joint 1" : "", distance_text(move.shift_m),
         before_and_after(move.as_given_m, move.if_changed_m));

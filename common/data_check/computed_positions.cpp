@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "data/written_steps.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
@@ -22,48 +22,21 @@ constexpr double kMostRoundingShare = 8e-5;  ///< of the reach: coarser rounding
 constexpr double kOverRounding = 1.0;        ///< median error over the root mean square of rounding
 constexpr double kFewestPosesTold = 12.0;    ///< different ones, below which base and tool explain too much
 
-/// The coarsest decimal place of a unit that all values are written to; 0 where they are written finer than 1e-5 units.
-double decimal_step(const std::vector<double>& values, double unit) {
-  for (int decimals = 0; decimals <= 5; ++decimals) {
-    const double step = unit * std::pow(10.0, -decimals);
-    const auto is_multiple = [step](double value) { return std::abs(value / step - std::round(value / step)) < 1e-3; };
-    if (std::ranges::all_of(values, is_multiple)) return step;
-  }
-  return 0.0;
-}
-
-/// The last places of a table: of joints that turn, rad, of those that slide, m, and of positions, m.
-struct TableSteps {
-  double angle_rad = 0.0, slide_m = 0.0, position_m = 0.0;
-};
-
-TableSteps steps_of(const Trial& trial) {
-  std::vector<double> angles, slides, positions;
-  for (const TrialRow& row : trial.rows) {
-    for (int joint = 0; joint < trial.chain.size(); ++joint)
-      (is_revolute(trial.chain, joint) ? angles : slides).push_back(row.joints[joint]);
-    positions.insert(positions.end(), row.point_m.begin(), row.point_m.end());
-  }
-  return {std::max(decimal_step(angles, radians(1.0)), decimal_step(angles, 1.0)), decimal_step(slides, metres(1.0)),
-          decimal_step(positions, metres(1.0))};
-}
-
 /// The error that rounding to the table's last places alone leaves, root mean square.
 double rounding_m(const Trial& trial, const TrialFit& placed) {
-  constexpr double kStep = 1e-6;
-  const TableSteps steps = steps_of(trial);
-  double squares = 0.0;
+  std::vector<double> positions;
+  std::vector<JointVector> joints;
   for (const TrialRow& row : trial.rows) {
-    squares += 3.0 * steps.position_m * steps.position_m;
-    for (int joint = 0; joint < trial.chain.size(); ++joint) {
-      TrialRow moved = row;
-      moved.joints[joint] += kStep;
-      const double lever = (predicted_point(placed, moved) - predicted_point(placed, row)).norm() / kStep;
-      const double step = is_revolute(trial.chain, joint) ? steps.angle_rad : steps.slide_m;
-      squares += lever * lever * step * step;
-    }
+    positions.insert(positions.end(), row.point_m.begin(), row.point_m.end());
+    joints.push_back(row.joints);
   }
-  return std::sqrt(squares / 12.0 / static_cast<double>(trial.rows.size()));
+  const JointSteps steps = joint_steps(trial.chain, joints);
+  const double position_m = decimal_step(positions, metres(1.0));
+  double squares = 0.0;
+  for (const TrialRow& row : trial.rows)
+    squares += position_m * position_m / 4.0 +
+               rounding_m2(placed.chain, row.joints, placed.tools_m[static_cast<std::size_t>(row.target)], steps);
+  return std::sqrt(squares / static_cast<double>(trial.rows.size()));
 }
 
 }  // namespace

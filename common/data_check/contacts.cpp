@@ -10,6 +10,8 @@
 #include <string>
 #include <utility>
 
+#include "data_check/explanations.hpp"
+#include "data_check/trial_fit.hpp"
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
@@ -20,6 +22,7 @@ namespace demecal::inline data_check {
 namespace {
 
 constexpr double kImplausible_m = 5e-3;  ///< of the median pose: no arm leaves so much once its links are fitted
+constexpr double kApart_m = 2e-2;        ///< the same with links as described
 constexpr double kFar = 8.0;             ///< deviations beyond which no noise goes
 constexpr double kLeast_m = 3e-4;        ///< what a ball's play may be
 constexpr double kThere = 0.3;           ///< of the error: how far off the contact may be that a pose touches instead
@@ -41,33 +44,52 @@ double median_tool_error_m(const DataSet& data, const CorrectedRobot& robot) {
   return median(tool_errors_m(robot, data, poses_of(data, PoseSet::calibration)));
 }
 
-/// The same data with one joint counted the other way.
-DataSet with_sign_changed(const DataSet& data, int joint) {
+/// The nominal arm with its tool where the calibration poses have it: known lengths have no say, since an arm whose
+/// links may bend would follow wrong ones.
+std::optional<Fit> stiff_arm(const DataSet& data) {
+  DataSet free = data;
+  free.contacts.distances.clear();
+  const Fit fit = fit_declared(free, poses_of(data, PoseSet::calibration), {.registration = true, .tool = true},
+                               nominal_robot(data));
+  if (fit.status == FitStatus::too_few_poses) return std::nullopt;
+  return fit;
+}
+
+/// The same data with joints read in another way.
+DataSet with_joints_read(const DataSet& data, const Explanation& reading) {
+  Trial trial{.chain = data.robot.chain, .tools_m = {}, .rows = {}};
+  for (const MeasuredPose& pose : data.poses)
+    trial.rows.push_back({.joints = pose.joints, .point_m = Eigen::Vector3d::Zero()});
+  reading.apply(trial);
   DataSet changed = data;
-  for (MeasuredPose& pose : changed.poses) pose.joints[joint] = -pose.joints[joint];
+  changed.robot.chain = trial.chain;
+  for (std::size_t i = 0; i < trial.rows.size(); ++i) changed.poses[i].joints = trial.rows[i].joints;
   return changed;
 }
 
-Finding contradiction(const DataSet& data, double as_given_m) {
+/// How joints are read where the nominal arm then holds the poses together far better.
+std::optional<Finding> other_reading(const DataSet& data, double as_given_m) {
   constexpr double kExplains = 0.3;
-  double best_m = std::numeric_limits<double>::infinity();
-  int best = -1;
-  for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
-    const DataSet changed = with_sign_changed(data, joint);
-    const std::optional<Fit> fit = fitted_arm(changed);
+  double best_m = kExplains * as_given_m;
+  std::optional<Explanation> best;
+  for (Explanation& reading : whole_set_explanations(data.robot.chain)) {
+    const DataSet changed = with_joints_read(data, reading);
+    const std::optional<Fit> fit = stiff_arm(changed);
     const double left_m = fit ? median_tool_error_m(changed, fit->robot) : best_m;
-    if (left_m < best_m) {
-      best_m = left_m;
-      best = joint;
-    }
+    if (!(left_m < best_m)) continue;
+    best_m = left_m;
+    best = std::move(reading);
   }
-  if (best_m < kExplains * as_given_m)
-    return {.kind = FindingKind::joint_sign,
-            .joint = best,
-            .as_given_mm = millimetres(as_given_m),
-            .if_changed_mm = millimetres(best_m),
-            .sentence = fmt::format("Joint {} counts the other way than the robot's description {}. Negate its column.",
-                                    best + 1, before_and_after(as_given_m, best_m))};
+  if (!best) return std::nullopt;
+  return Finding{.kind = best->kind,
+                 .joint = best->joint,
+                 .as_given_mm = millimetres(as_given_m),
+                 .if_changed_mm = millimetres(best_m),
+                 .sentence = "The poses that touch one contact agree if " + best->clause + " " +
+                             before_and_after(as_given_m, best_m) + ". Correct the data or the robot file."};
+}
+
+Finding of_other_robot(double as_given_m) {
   return {.kind = FindingKind::other_robot,
           .as_given_mm = millimetres(as_given_m),
           .sentence = fmt::format(
@@ -167,26 +189,25 @@ class ContactSearch {
 
   Finding named(const WrongPose& wrong) const {
     const MeasuredPose& pose = data_.poses[wrong.pose];
-    return {
-        .kind = FindingKind::wrong_contact,
-        .poses = {pose.pose_id},
-        .as_given_mm = millimetres(wrong.error_m),
-        .if_changed_mm = millimetres(wrong.elsewhere_m),
-        .sentence = fmt::format("Line {} ({}) names contact '{}', but lies {} from it and {} from '{}': most likely "
-                                "it touched '{}'. Correct the name, or exclude the pose.",
-                                pose.line, pose.pose_id, pose.contact, distance_text(wrong.error_m),
-                                distance_text(wrong.elsewhere_m), wrong.fits, wrong.fits)};
+    return {.kind = FindingKind::wrong_contact,
+            .poses = {pose.pose_id},
+            .as_given_mm = millimetres(wrong.error_m),
+            .if_changed_mm = millimetres(wrong.elsewhere_m),
+            .sentence = fmt::format("Line {}{} names contact '{}', but lies {} from it and {} from '{}': most likely "
+                                    "it touched '{}'. Correct the name, or exclude the pose.",
+                                    pose.line, name_beside_line(pose), pose.contact, distance_text(wrong.error_m),
+                                    distance_text(wrong.elsewhere_m), wrong.fits, wrong.fits)};
   }
 
   Finding touching_nothing(std::size_t index, double error_m) const {
     const MeasuredPose& pose = data_.poses[index];
-    return {
-        .kind = FindingKind::outlier,
-        .poses = {pose.pose_id},
-        .as_given_mm = millimetres(error_m),
-        .sentence = fmt::format("Line {} ({}) lies {} from contact '{}', where the others agree within {}: the tool "
-                                "was not seated, or its joint values belong to another moment.",
-                                pose.line, pose.pose_id, distance_text(error_m), pose.contact, distance_text(far_m_))};
+    return {.kind = FindingKind::outlier,
+            .poses = {pose.pose_id},
+            .as_given_mm = millimetres(error_m),
+            .sentence = fmt::format("Line {}{} lies {} from contact '{}', where the others agree within {}: the tool "
+                                    "was not seated, or its joint values belong to another moment.",
+                                    pose.line, name_beside_line(pose), distance_text(error_m), pose.contact,
+                                    distance_text(far_m_))};
   }
 
   const DataSet& data_;
@@ -205,10 +226,17 @@ std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRob
 
 std::vector<Finding> check_contacts(const DataSet& data) {
   if (!has_contacts(data)) return {};
+  if (const std::optional<Fit> stiff = stiff_arm(data)) {
+    const double apart_m = median_tool_error_m(data, stiff->robot);
+    if (apart_m > kApart_m)
+      if (auto reading = other_reading(data, apart_m)) return {std::move(*reading)};
+    if (apart_m < kApart_m)
+      if (auto wrong = find_wrong_lengths(data, stiff->robot, apart_m); !wrong.empty()) return wrong;
+  }
   const std::optional<Fit> fit = fitted_arm(data);
   if (!fit) return {};
   const double left_m = median_tool_error_m(data, fit->robot);
-  if (left_m > kImplausible_m) return {contradiction(data, left_m)};
+  if (left_m > kImplausible_m) return {of_other_robot(left_m)};
   return find_wrong_contacts(data, fit->robot);
 }
 

@@ -55,14 +55,30 @@ class Contradictions {
                  by_move_m = has_moved ? moved_fit.median_m : as_given_m;
     const double least_m = std::min({by_reading_m, by_shift_m, by_move_m});
     if (least_m < std::min(kHalf * as_given_m, plausible_m)) {
-      if (least_m == by_move_m) return;  // named with what else the instrument did
+      if (least_m == by_move_m) return explain_moved_rows(moved);
       if (least_m == by_reading_m) return add_readings(*explained, as_given_m);
       return add_order(FindingKind::rows_shifted, *shift, as_given_m);
     }
-    if (as_given_m < plausible_m) return;
+    if (as_given_m < plausible_m) return look_for_wrong_rows();
     if (const auto shuffled = find_shuffled_rows(whole_, 2.0 * plausible_m))
       return add_order(FindingKind::rows_shuffled, *shuffled, as_given_m);
     add_other_robot(as_given_m, reach_m);
+  }
+
+  /// Rows that would have been measured from another place may be read otherwise from the same: a move is named with
+  /// what else the instrument did.
+  void explain_moved_rows(const Trial& moved) {
+    std::vector<std::size_t> rows(static_cast<std::size_t>(moved.stations), 0);
+    for (const TrialRow& row : moved.rows) ++rows[static_cast<std::size_t>(row.station)];
+    const auto longest = static_cast<int>(std::ranges::max_element(rows) - rows.begin());
+    Trial there{moved.chain, moved.tools_m, {}, 1};
+    for (TrialRow row : moved.rows) {
+      if (row.station != longest) continue;
+      row.station = 0;
+      there.rows.push_back(std::move(row));
+    }
+    auto explained = explain_wrong_rows(data_, whole_, fit_arm(there, fit_base_and_tools(there)));
+    if (explained && has_no_number(explained->kind)) add(std::move(*explained));
   }
 
   /// Where most rows fit and many do not, these may be read wrongly or stand beside the wrong joints.
@@ -70,6 +86,7 @@ class Contradictions {
     auto named = name_wrong_rows(data_, whole_, fit_);
     auto explained = explain_wrong_rows(data_, whole_, fit_);
     if (!named && !explained) return;
+    if (explained && has_no_number(explained->kind)) return add(std::move(*explained));
     Trial moved = trial_;
     TrialFit moved_fit = fit_;
     if (!find_moves(moved, moved_fit).empty() && !has_many_far(moved_fit)) return;  // named with what else it did
@@ -77,6 +94,11 @@ class Contradictions {
     if (const auto shift = shift_of_rest(whole_)) return add_shift_of_rest(*shift);
     if (!has_many_far(fit_arm_to_all(trial_, fit_))) return;
     add(std::move(*named));
+  }
+
+  /// Readings without a number of their own that bring the rows back: no move of the instrument does so by chance.
+  static bool has_no_number(FindingKind kind) {
+    return kind != FindingKind::joint_offset && kind != FindingKind::rows_shifted;
   }
 
   bool has_many_far(const TrialFit& fit) const {
@@ -116,7 +138,7 @@ class Contradictions {
     if (!order.poses.empty()) {
       const bool from_begin = order.poses.front() == whole_.rows.front().pose;
       const MeasuredPose& pose = data_.poses[from_begin ? order.poses.back() : order.poses.front()];
-      which = fmt::format(" (line {}, {})", pose.line, pose.pose_id);
+      which = fmt::format(" (line {}{})", pose.line, name_beside_line(pose));
     }
     add({.kind = kind,
          .poses = ids_of(order.poses),

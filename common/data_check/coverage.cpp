@@ -152,11 +152,11 @@ std::vector<Finding> find_shared_poses(const DataSet& data) {
     for (const auto& [pose, twin] : shared) finding.poses.push_back(pose->pose_id);
     const auto& [pose, twin] = shared.front();
     finding.sentence = fmt::format(
-        "{} of the {} {} poses stand at the joints of calibration poses (line {} ({}) at those of line {} ({})): their "
+        "{} of the {} {} poses stand at the joints of calibration poses (line {}{} at those of line {}{}): their "
         "errors say nothing of other places. Give repeats of a pose one name and one set, or measure {} poses of their "
         "own.",
-        shared.size(), judging.size(), to_string(set), pose->line, pose->pose_id, twin->line, twin->pose_id,
-        to_string(set));
+        shared.size(), judging.size(), to_string(set), pose->line, name_beside_line(*pose), twin->line,
+        name_beside_line(*twin), to_string(set));
     found.push_back(std::move(finding));
   }
   return found;
@@ -179,8 +179,9 @@ std::vector<Finding> take_out_copies(DataSet& data) {
     // Rows of another file may have been joined to one line.
     const std::string rows =
         pose.line == other.line
-            ? fmt::format("Two rows that belong to line {} ({}) are alike", pose.line, pose.pose_id)
-            : fmt::format("Line {} ({}) repeats line {} ({})", pose.line, pose.pose_id, other.line, other.pose_id);
+            ? fmt::format("Two rows that belong to line {}{} are alike", pose.line, name_beside_line(pose))
+            : fmt::format("Line {}{} repeats line {}{}", pose.line, name_beside_line(pose), other.line,
+                          name_beside_line(other));
     found.push_back(
         {.kind = FindingKind::copied_rows,
          .poses = {other.pose_id, pose.pose_id},

@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 27> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 29> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -31,6 +31,7 @@ constexpr std::array<KindRow, 27> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::instrument_moved, "instrument_moved", false},
                                           {FindingKind::joint_zero_changed, "joint_zero_changed", false},
                                           {FindingKind::computed_positions, "computed_positions", false},
+                                          {FindingKind::wrong_axes, "wrong_axes", false},
                                           {FindingKind::set_in_other_frame, "set_in_other_frame", false},
                                           {FindingKind::wrong_tool, "wrong_tool", false},
                                           {FindingKind::constant_joint, "constant_joint", false},
@@ -39,6 +40,7 @@ constexpr std::array<KindRow, 27> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::shared_poses, "shared_poses", false},
                                           {FindingKind::typing_error, "typing_error", false},
                                           {FindingKind::wrong_contact, "wrong_contact", false},
+                                          {FindingKind::wrong_length, "wrong_length", true},
                                           {FindingKind::wrong_orientation, "wrong_orientation", false},
                                           {FindingKind::outlier, "outlier", false},
                                           {FindingKind::many_outliers, "many_outliers", true},

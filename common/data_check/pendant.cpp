@@ -112,10 +112,9 @@ class PendantSearch {
     }
     if (!odd) return false;
     const MeasuredPose& pose = data_.poses[*odd];
-    const bool named = pose.pose_id != fmt::format("line {}", pose.line);
     return settles(fit, {fmt::format("Line {}{}: the other {} poses agree, and by them its point is at {}, not at {}: "
                                      "correct it, or read it off again.",
-                                     pose.line, named ? " (" + pose.pose_id + ")" : "", fit.error_m.size(),
+                                     pose.line, name_beside_line(pose), fit.error_m.size(),
                                      triple(predicted_point(fit, trial_.rows[*odd])), triple(*pose.position_m))});
   }
 

@@ -44,9 +44,9 @@ class WrongRows {
     limit_m_ = std::max(kNotableShare * whole.reach_m(), kOffOverMedian * fit.median_m);
     for (std::size_t i = 0; i < whole_.rows.size(); ++i) {
       if (data_.poses[whole_.rows[i].pose].set != PoseSet::calibration) continue;
-      ++fitted_;
       const double error_m = error(whole_.rows[i]);
-      if (error_m > limit_m_) off_.push_back(i), errors_m_.push_back(error_m);
+      if (error_m > limit_m_) off_.push_back(i), errors_m_.push_back(error_m), places_.push_back(fitted_);
+      ++fitted_;
     }
   }
 
@@ -54,6 +54,9 @@ class WrongRows {
     const auto off = static_cast<double>(off_.size()), all = static_cast<double>(fitted_);
     return off_.size() >= kFewestOff && off >= kManyRows * all && off <= kMostRows * all;
   }
+
+  /// The rows that are off are fewer, but stand together as rows of another file or of a later day do.
+  bool are_a_block() const { return !are_many() && off_.size() >= kFewestOff && stand_together(places_); }
 
   /// The rows that are off by more than `least_m` alone are many.
   bool are_many_beyond(double least_m) const {
@@ -73,9 +76,9 @@ class WrongRows {
     for (const Explanation& one : whole_set_explanations(whole_.chain)) take(reading_of(one));
     for (const Explanation& one : axes_explanations()) take(reading_of(one));
     for (const Explanation& one : target_explanations()) take(reading_of(one));
-    for (int shift = -kMostGroupShift; shift <= kMostGroupShift; ++shift)
+    for (int shift = -kMostGroupShift; are_many() && shift <= kMostGroupShift; ++shift)
       if (shift != 0) take(shifted(shift));
-    if (!best)
+    if (!best && are_many())
       for (int joint = 0; joint < whole_.chain.size(); ++joint)
         if (is_revolute(whole_.chain, joint)) take(offset_of(joint));
     if (!best) return std::nullopt;
@@ -196,11 +199,15 @@ class WrongRows {
             }};
   }
 
+  /// Places of rows, ascending, with few others between them.
+  static bool stand_together(const std::vector<std::size_t>& off) {
+    return static_cast<double>(off.size()) >= kShareExplained * static_cast<double>(off.back() - off.front() + 1);
+  }
+
   /// "lines 72 to 101, P71 to P100", where they stand together.
   std::string where(const std::vector<std::size_t>& off) const {
     const MeasuredPose &first = pose_of(off.front()), &last = pose_of(off.back());
-    if (static_cast<double>(off.size()) < kShareExplained * static_cast<double>(off.back() - off.front() + 1))
-      return fmt::format("here and there from line {} to line {}", first.line, last.line);
+    if (!stand_together(off)) return fmt::format("here and there from line {} to line {}", first.line, last.line);
     if (static_cast<std::ptrdiff_t>(off.back()) + kNearEnd >= std::ssize(whole_.rows))
       return fmt::format("line {} on", first.line);
     return fmt::format("lines {} to {}", first.line, last.line);
@@ -227,16 +234,17 @@ class WrongRows {
   const Trial& whole_;
   const TrialFit& fit_;
   double limit_m_ = 0.0;
-  std::size_t fitted_ = 0;          ///< rows of the calibration set
-  std::vector<std::size_t> off_{};  ///< those of them that do not fit
-  std::vector<double> errors_m_{};  ///< of each that is off
+  std::size_t fitted_ = 0;             ///< rows of the calibration set
+  std::vector<std::size_t> off_{};     ///< those of them that do not fit
+  std::vector<double> errors_m_{};     ///< of each that is off
+  std::vector<std::size_t> places_{};  ///< of each among the calibration rows
 };
 
 }  // namespace
 
 std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit) {
   const WrongRows wrong(data, whole, fit);
-  return wrong.are_many() ? wrong.explained() : std::nullopt;
+  return wrong.are_many() || wrong.are_a_block() ? wrong.explained() : std::nullopt;
 }
 
 std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "data_check/explanations.hpp"
+#include "data_check/point_pairs.hpp"
 #include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "fitting/base_search.hpp"
@@ -70,6 +71,23 @@ std::optional<RowReordering> shift_of_all(const Trial& whole) {
   return RowReordering{shift_clause(best), fit_arm(trial, fit_base_and_tools(trial)).median_m};
 }
 
+/// Whether rows [begin, end) fit far better shifted than as given by an arm that is fitted to all others: one that was
+/// fitted to fewer may err there.
+bool fit_shifted(const Trial& whole, std::size_t begin, std::size_t end, int shift) {
+  Trial others{whole.chain, whole.tools_m, {}, whole.stations};
+  for (const std::size_t i : spread_indices(whole.rows.size() - (end - begin), kShiftRows))
+    others.rows.push_back(whole.rows[i < begin ? i : i + (end - begin)]);
+  const TrialFit fit = fit_arm(others, fit_base_and_tools(others));
+  std::vector<double> given, moved;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!has_row(whole, i, shift)) continue;
+    given.push_back((whole.rows[i].point_m - predicted_point(fit, whole.rows[i])).norm());
+    const TrialRow row = shifted_row(whole, i, shift, false);
+    moved.push_back((row.point_m - predicted_point(fit, row)).norm());
+  }
+  return !given.empty() && median(std::move(moved)) < kLeastFall * median(std::move(given));
+}
+
 /// A fit to one end of the rows, and the shift of all behind (or before) a row that it then shows.
 std::optional<RowReordering> shift_of_one_end(const Trial& whole, bool from_begin) {
   const std::size_t n = whole.rows.size(), kept = static_cast<std::size_t>(kShareOfRows * static_cast<double>(n));
@@ -101,6 +119,7 @@ std::optional<RowReordering> shift_of_one_end(const Trial& whole, bool from_begi
       }
     }
     if (begin < 3 || begin + 3 > n || static_cast<double>(least) > 0.1 * static_cast<double>(n)) continue;
+    if (!fit_shifted(whole, from_begin ? begin : 0, from_begin ? n : begin, shift)) continue;
     RowReordering found{shift_clause(shift) + (from_begin ? ", from this row on" : ", up to this row"), fit.median_m};
     for (std::size_t i = from_begin ? begin : 0; i < (from_begin ? n : begin); ++i)
       found.poses.push_back(whole.rows[i].pose);

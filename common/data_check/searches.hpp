@@ -37,7 +37,8 @@ std::vector<Finding> find_contradictions(const DataSet& data, const CheckedRows&
                                          const TrialFit& fit);
 
 /// Where 15 % of the calibration rows and more are off while the others fit `fit` to a tenth of that: how they fit, if
-/// by a sign, offset, exchange, unit, pair of axes or targets, or a shift of rows. Base, tools and links are held.
+/// by a sign, offset, exchange, unit, pair of axes or targets, or a shift of rows. Fewer rows that stand together, five
+/// at least, are read in the same ways, but for shifts and offsets of any size. Base, tools and links are held.
 std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);
 
 /// The same rows where they are farther off than any arm errs, and nothing that was tried explains them.
@@ -46,6 +47,10 @@ std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, 
 /// Whether base and tools alone bring the nominal arm to the points as closely as their file is rounded, or to a
 /// hundred thousandth of its reach: then nobody measured them. `placed`: the fit of base and tools to `trial`.
 std::optional<Finding> find_computed_positions(const Trial& trial, const TrialFit& placed);
+
+/// Axes of the instrument that are stretched against each other, or not square, by more than base, tools, links, gears
+/// and elasticity of the arm can explain. Rows come back without that, `placed` and `fit` fitted to them.
+std::optional<Finding> find_wrong_axes(const DataSet& data, CheckedRows& rows, TrialFit& placed, TrialFit& fit);
 
 /// In data said to be in the base's frame: axes, a turn of joint 1, or another frame where the fitted base is not
 /// there.
@@ -89,10 +94,15 @@ std::vector<Finding> find_shared_poses(const DataSet& data);
 /// with noise does not, unless its digits are as coarse as the noise.
 std::vector<Finding> take_out_copies(DataSet& data);
 
-/// Checks data that contacts alone tell of: tool and links are fitted to the calibration poses, robustly. Where poses
-/// then disagree by more than any arm errs, joints' signs are tried, and the description is contradicted. Else single
-/// poses are named, of all sets.
+/// Checks data that contacts alone tell of. The nominal arm with its tool fitted, known lengths left aside, must hold
+/// poses together; where it does not, joints are read in other ways, and one that does is named. Then known lengths are
+/// held against it. Then links are fitted too: where poses disagree by more than any arm errs the description is
+/// contradicted, else single poses are named, of all sets.
 std::vector<Finding> check_contacts(const DataSet& data);
+
+/// Known lengths that are not those of this arm's contacts by far, in another unit or by another factor. `robot`
+/// predicts the tool, by lengths of its own, and leaves poses of one contact `apart_m` from their middle.
+std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m);
 
 /// Poses that the contact they name does not fit: those that fit another one, as wrong_contact, others as outlier.
 /// `robot` predicts the tool.

@@ -74,7 +74,8 @@ class OutlierSearch {
   std::string name_among(const std::vector<std::size_t>& rows, std::size_t row) const {
     const auto same = [&](std::size_t other) { return id(other) == id(row); };
     if (std::ranges::count_if(rows, same) < 2) return id(row);
-    return fmt::format("line {} ({})", data_.poses[rows_[row].pose].line, id(row));
+    const MeasuredPose& pose = data_.poses[rows_[row].pose];
+    return fmt::format("line {}{}", pose.line, name_beside_line(pose));
   }
   double error(const TrialRow& row) const { return (row.point_m - predict_.point(row)).norm(); }
   bool fits(const TrialRow& row, double before_m) const {

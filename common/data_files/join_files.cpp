@@ -19,6 +19,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/forward.hpp"
+#include "kinematics/units.hpp"
 #include "tables/join.hpp"
 #include "tables/time_stamp.hpp"
 
@@ -156,25 +157,42 @@ class TimeJoin {
   JoinedRows run(const JoinRule& rule, std::vector<std::string>& sentences) {
     const std::vector<JoinKeys> keys = times_of(files_, node_.at("by"), units_, rule.offset_s.has_value());
     const std::size_t lead = leading_file(columns_), arm = columns_.joints.front().table;
-    const double offset_s = rule.offset_s ? *rule.offset_s : found_offset_s(keys, lead, arm, rule.within_s);
-    JoinedRows joined = join_by_time(tables_of(files_), keys, lead, rule, offset_s);
-    if (!rule.offset_s)
-      joined.sentence +=
-          ", its clock " + number_text(std::round(1e3 * offset_s) / 1e3) + " s ahead (found by the arm's motion)";
+    const ClockOffset offset =
+        rule.offset_s ? ClockOffset{.offset_s = *rule.offset_s} : found_offset(keys, lead, arm, rule.within_s);
+    JoinedRows joined = join_by_time(tables_of(files_), keys, lead, rule, offset.offset_s);
+    if (!rule.offset_s) joined.sentence += in_words(offset);
     if (arm != lead) warn_of_motion(joined, keys[arm], arm, rule.within_s, sentences);
     return joined;
   }
 
  private:
-  double found_offset_s(const std::vector<JoinKeys>& keys, std::size_t lead, std::size_t arm, double within_s) const {
+  static std::string millimetres_text(double metres_value) {
+    return number_text(std::round(1e2 * millimetres(metres_value)) / 1e2) + " mm";
+  }
+
+  std::string in_words(const ClockOffset& offset) const {
+    std::string text = ", its clock " + number_text(std::round(1e3 * offset.offset_s) / 1e3) +
+                       " s ahead (found by the arm's motion: arm and points then agree to " +
+                       millimetres_text(offset.misfit_m);
+    if (std::isfinite(offset.rival_m))
+      text += ", and to " + millimetres_text(offset.rival_m) + " at the best offset that gives other joints";
+    if (offset.tool_m)
+      text += "; the tool was fitted for it, " + millimetres_text((*offset.tool_m - chain_.tool_m).norm()) +
+              " from where the robot file has it";
+    return text + ")";
+  }
+
+  ClockOffset found_offset(const std::vector<JoinKeys>& keys, std::size_t lead, std::size_t arm,
+                           double within_s) const {
     if (files_.size() != 2 || columns_.position.empty() || arm == lead)
       node_.at("offset_s").fail("needs one file with joints and one with positions; give a number");
     JoinPoints points;
     points.measured_m =
         vectors_of<Eigen::Vector3d>(files_[lead], quantities(files_[lead], columns_.position, nullptr, units_));
     for (const JointVector& joints : joint_vectors(files_[arm], columns_, units_, chain_))
-      points.predicted_m.push_back(tool_position(chain_, joints));
-    return find_offset_s(files_[lead].table, keys[lead], files_[arm].table, keys[arm], points, within_s);
+      points.flanges.push_back(forward(chain_, joints));
+    points.tool_m = chain_.tool_m;
+    return find_offset(files_[lead].table, keys[lead], files_[arm].table, keys[arm], points, within_s);
   }
 
   /// How far apart rows are neighbours, at the least: a log's next row tells of motion however near rows must be to

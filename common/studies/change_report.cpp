@@ -92,8 +92,11 @@ Json cause_json(const ChangeCause& cause, const Robot& robot) {
 /// With their lines, since names may repeat.
 std::string left_out_line(const ChangeReport& change, const DataSet& data) {
   std::vector<std::string> names;
-  for (const std::size_t pose : change.outliers)
-    names.push_back(fmt::format("{} (line {})", data.poses[pose].pose_id, data.poses[pose].line));
+  for (const std::size_t i : change.outliers) {
+    const MeasuredPose& pose = data.poses[i];
+    names.push_back(names_itself(pose) ? fmt::format("{} (line {})", pose.pose_id, pose.line)
+                                       : fmt::format("line {}", pose.line));
+  }
   return fmt::format("  left out, since they fit neither the robot as it was nor any change of it: {}\n",
                      fmt::join(names, ", "));
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -33,8 +35,17 @@ struct JoinKeys {
 /// What the arm and the instrument say of the rows, m: by it an unknown offset of clocks is found. Empty where a table
 /// does not say it.
 struct JoinPoints {
-  std::vector<Eigen::Vector3d> measured_m;   ///< of the leading table
-  std::vector<Eigen::Vector3d> predicted_m;  ///< of the table with the joints, by the nominal arm
+  std::vector<Eigen::Vector3d> measured_m;           ///< of the leading table
+  std::vector<Eigen::Isometry3d> flanges;            ///< of the table with the joints, by the nominal arm, base frame
+  Eigen::Vector3d tool_m = Eigen::Vector3d::Zero();  ///< as the arm's file has it, flange frame
+};
+
+/// An offset of clocks that was found.
+struct ClockOffset {
+  double offset_s = 0.0;
+  double misfit_m = 0.0;                                     ///< that measured and predicted points are left with
+  double rival_m = std::numeric_limits<double>::infinity();  ///< the same at the best offset that gives other joints
+  std::optional<Eigen::Vector3d> tool_m{};                   ///< where it had to be fitted, flange frame
 };
 
 struct JoinedRows {
@@ -51,9 +62,10 @@ JoinedRows join_by_time(const std::vector<CsvTable>& tables, const std::vector<J
                         const JoinRule& rule, double offset_s);
 
 /// The offset by which distances between measured points are those between the points that the arm predicts at the
-/// joints of the rows nearest in time. Throws InputError where no offset fits, or several do that would give other
+/// joints of the rows nearest in time; where its tool does not suit, that by which base and tool of least squares bring
+/// the flanges nearest to the points. Throws InputError where no offset fits, or several do that would give other
 /// joints.
-double find_offset_s(const CsvTable& lead, const JoinKeys& lead_keys, const CsvTable& other, const JoinKeys& other_keys,
-                     const JoinPoints& points, double within_s);
+ClockOffset find_offset(const CsvTable& lead, const JoinKeys& lead_keys, const CsvTable& other,
+                        const JoinKeys& other_keys, const JoinPoints& points, double within_s);
 
 }  // namespace demecal::inline tables

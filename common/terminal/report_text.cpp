@@ -198,7 +198,7 @@ std::string listed_poses(const std::string& title, const std::vector<std::string
 
 /// What to look at before the figures.
 std::string data_check_text(const Report& report) {
-  const std::string findings = to_terminal(report.data_check);
+  const std::string findings = to_terminal(report.data_check, ShownFindings::ten);
   return findings.empty() ? findings : "  Look at the data first:\n" + findings + "\n";
 }
 
@@ -241,17 +241,17 @@ std::string to_terminal(const Evaluation& evaluation) {
   return text;
 }
 
-std::string to_terminal(const DataCheckEntry& check) {
-  constexpr std::size_t kMostShown = 10;
+std::string to_terminal(const DataCheckEntry& check, ShownFindings shown) {
+  constexpr std::size_t kTen = 10;
   std::vector<const FindingEntry*> findings;
   for (const FindingEntry& finding : check.findings) findings.push_back(&finding);
   std::ranges::stable_sort(findings, [](const FindingEntry* one, const FindingEntry* other) {
     return contradicts(*one) && !contradicts(*other);
   });
   std::string text;
-  for (std::size_t i = 0; i < std::min(findings.size(), kMostShown); ++i)
-    text += wrapped("  -", findings[i]->sentence, 4);
-  if (findings.size() > kMostShown) text += fmt::format("  - {} more in report.json\n", findings.size() - kMostShown);
+  const std::size_t count = shown == ShownFindings::all ? findings.size() : std::min(findings.size(), kTen);
+  for (std::size_t i = 0; i < count; ++i) text += wrapped("  -", findings[i]->sentence, 4);
+  if (findings.size() > count) text += fmt::format("  - {} more in report.json\n", findings.size() - count);
   return text;
 }
 

@@ -18,9 +18,12 @@ std::string to_terminal(const Report& report);
 /// One stage's figures, and how far single poses are predicted to err, where that is known.
 std::string to_terminal(const Evaluation& evaluation);
 
+/// How many findings are shown: ten where report.json has the others, all where no report is written.
+enum class ShownFindings { ten, all };
+
 /// What the check of the data found: a sentence a line, the gravest first, at most 100 columns wide; empty where
 /// nothing was found.
-std::string to_terminal(const DataCheckEntry& check);
+std::string to_terminal(const DataCheckEntry& check, ShownFindings shown);
 
 /// One line per effect added with its size, p and the validation error before and after (many gear harmonics take one
 /// line per joint), what it may be taken for, what to measure next, what was tried last, why the loop stopped, and

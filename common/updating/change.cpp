@@ -9,6 +9,7 @@
 #include <set>
 #include <string>
 
+#include "data/written_steps.hpp"
 #include "decompositions/decompositions.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
@@ -16,6 +17,7 @@
 #include "parameters/parameter_space.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
+#include "updating/joint_rounding.hpp"
 #include "updating/repeats.hpp"
 
 namespace demecal::inline updating {
@@ -24,6 +26,8 @@ namespace {
 constexpr double kError = 0.05, kErrorOfAny = 1e-3;
 /// Of a cause beside those found, or beside a base found anew: it is sought in what they left of the same poses.
 constexpr double kErrorOfFurther = 0.005;
+/// Of what causes leave, below which it is looked for in how joints are written.
+constexpr double kChanceOfNoise = 0.1;
 constexpr double kFound = 1.645 + 1.282;  ///< one-sided at 5 %, nine times in ten
 constexpr std::size_t kFewestTestedPoses = 4;
 
@@ -60,7 +64,8 @@ class ChangeSearch {
     ChangeRows rows = make_rows();
     if (leave_out_gross(rows)) rows = make_rows();
     report_.error_m = rms(Eigen::VectorXd::Zero(0), rows);
-    judge(rows);
+    const double chance_of_left = judge(rows);
+    if (report_.verdict == ChangeVerdict::changed && chance_of_left < kChanceOfNoise) judge_as_rounded();
     for (std::size_t& pose : report_.outliers) pose = distinct_.measured[pose];
     return std::move(report_);
   }
@@ -92,7 +97,7 @@ class ChangeSearch {
   }
 
   ChangeRows make_rows() const {
-    return change_rows(model_, data_, {robot_, poses_, report_.noise_m, report_.set_up_anew}, effects_);
+    return change_rows(model_, data_, {robot_, poses_, report_.noise_m, report_.set_up_anew, rounding_}, effects_);
   }
 
   /// Whether any was.
@@ -146,8 +151,21 @@ class ChangeSearch {
     return model_.interval ? std::clamp(3.0 * static_cast<double>(model_.interval->poses), kFewest, kMost) : kFewest;
   }
 
-  void judge(const ChangeRows& all) {
+  /// Where joints are written coarsely, that may be what is left.
+  void judge_as_rounded() {
+    const auto rounding = notable_rounding(robot_.chain, data_, poses_, report_.noise_m);
+    if (!rounding) return;
+    rounding_ = rounding->steps;
+    report_.not_testable.push_back(rounding->sentence);
+    judge(make_rows());
+  }
+
+  /// Finds the causes; returns the chance of as much as they leave by noise alone.
+  double judge(const ChangeRows& all) {
     ChangeRows rows = all;
+    report_.found.clear();
+    report_.verdict = ChangeVerdict::unchanged;
+    report_.unnamed = false;
     const auto n = static_cast<double>(rows.values.size());
     report_.p_any = fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
     report_.strain = std::sqrt(rows.values.squaredNorm() / n);
@@ -173,6 +191,7 @@ class ChangeSearch {
       report_.unnamed = true;
       report_.left_m = report_.error_m;
     }
+    return fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
   }
 
   /// Whether the causes found are what happened: a joint's sign, or rows of two sets, look like a little of everything.
@@ -259,6 +278,7 @@ class ChangeSearch {
   CorrectedRobot robot_;
   std::vector<std::size_t> poses_;
   std::vector<Effect> effects_;
+  JointSteps rounding_;
   ChangeReport report_;
 };
 

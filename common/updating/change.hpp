@@ -12,6 +12,7 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
+#include "data/written_steps.hpp"
 #include "effects/effect.hpp"
 #include "prediction/corrected_robot.hpp"
 
@@ -57,7 +58,8 @@ struct ChangeReport {
 /// their mean. Errors by the model's covariance and its noise are expected; what explains more than 5 % of such samples
 /// would (of all causes tried) has changed. Causes are added one after another; where they leave most of errors that
 /// are far beyond what is expected, none is named. Poses of the names `suspects` are left out where they are a quarter
-/// at most. Throws InputError where the poses are too few, or are not of this arm.
+/// at most. Where joints are written coarsely, and errors are left that nothing explains, their rounding counts as
+/// noise. Throws InputError where the poses are too few, or are not of this arm.
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects = {});
 
 /// What may happen to an arm between two measurements: what is declared of most models, and what depends on the side a
@@ -76,6 +78,7 @@ struct ComparedPoses {
   const std::vector<std::size_t>& poses;
   double noise_m = 0.0;      ///< per axis
   bool set_up_anew = false;  ///< the base was found again: it is known to nothing but these poses
+  JointSteps rounding{};     ///< by which joints were rounded when they were written; 0: they are as commanded
 };
 
 ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,

@@ -35,6 +35,21 @@ void add_base(const ResidualField& field, Eigen::MatrixXd& covariance) {
   }
 }
 
+/// Every joint stands up to half a step from where it is written.
+void add_rounding(const ResidualField& field, const Chain& chain, const JointSteps& steps,
+                  Eigen::MatrixXd& covariance) {
+  constexpr int kShiftAlongZ = 2;
+  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
+    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+    for (int joint = 0; joint < chain.size(); ++joint) {
+      const int axis = is_revolute(chain, joint) ? kTurnAboutZ : kShiftAlongZ;
+      const Eigen::VectorXd column =
+          steps.of(chain, joint) * field.motions.block(first, motion_column(joint, axis), count, 1);
+      covariance.block(first, first, count, count) += column * column.transpose() / 12.0;
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses) {
@@ -70,6 +85,7 @@ ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const 
     covariance += known * known.transpose();
   }
   if (compared.set_up_anew) add_base(field, covariance);
+  add_rounding(field, data.robot.chain, compared.rounding, covariance);
   EffectColumns columns;
   for (const Effect& effect : effects) columns.append(effect, data.robot, field.states);
   columns.pack();

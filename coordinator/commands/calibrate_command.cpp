@@ -212,7 +212,7 @@ ExitCode run_calibrate(CalibrateRequest request) {
   std::vector<std::string> files = result_files(job.method);
   files.emplace_back("events.jsonl");
   make_writable(request.out, files, request.force);
-  if (refuses(checked, request.force)) {
+  if (refuses(checked, request.force, ShownFindings::ten)) {
     write_refusal(request.out, job.name, checked);
     return ExitCode::contradiction;
   }

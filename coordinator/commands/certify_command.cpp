@@ -103,7 +103,7 @@ ExitCode run_certify(const CertifyRequest& request) {
   const DataSet& data = checked.data;
   model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
   require_same_arm(model.robot, data);
-  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
   if (!request.force && are_computed(checked)) return ExitCode::contradiction;
   if (!request.force) require_alike_arm(model, data);
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
@@ -115,7 +115,7 @@ ExitCode run_certify(const CertifyRequest& request) {
                         .today = today(),
                         .model_sha256 = sha256(read_file(request.model_file)),
                         .refit_base = request.refit_base});
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   write_result(request.out, "certificate.html", certificate_html(certificate));
   write_result(request.out, "certificate.xml", dcc_xml(certificate));
   const std::string pdf = print_page(request);

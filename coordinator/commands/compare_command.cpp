@@ -142,11 +142,11 @@ ExitCode run_compare(const CompareRequest& request) {
   std::vector<std::string> files = result_files(job.method);
   files.emplace_back("comparison.json");
   if (!request.out.empty()) make_writable(request.out, files, request.force);
-  if (refuses(checked, request.force)) {
+  if (refuses(checked, request.force, request.out.empty() ? ShownFindings::all : ShownFindings::ten)) {
     if (!request.out.empty()) write_refusal(request.out, job.name, checked);
     return ExitCode::contradiction;
   }
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   Comparison comparison{job.name, data.robot.name, data.name, data.sha256, {}, {}};
   for (const MeasuredPose& pose : data.poses) ++comparison.poses[static_cast<std::size_t>(pose.set)];
   compare_baselines(data, job, comparison);

@@ -100,8 +100,8 @@ ExitCode prepare_recordings(const Recordings& recordings, const PrepareRequest& 
   const DataSet data = recorded_data_set(recordings, found);
   if (!request.json) fmt::print("{}", recorded_table(recordings, found));
   const CheckedData checked{data, check_data(data)};
-  if (refuses(checked, request.force)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
 
   const WrittenFile standstills = standstills_file(recordings, found);
   const std::vector<std::string> names{"dataset.yaml", "poses.csv", "robot.yaml", standstills.name};
@@ -127,8 +127,8 @@ ExitCode run_prepare(const PrepareRequest& request) {
   const ErrorStatistic statistic = error_statistic(raw, prepared);
   warn(request, raw, prepared);
   const CheckedData checked{data, check_data(data)};
-  if (refuses(checked, request.force)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
 
   std::vector<std::string> names{"dataset.yaml", "poses.csv", "robot.yaml"};
   for (const WrittenFile& file : files) names.push_back(file.name);

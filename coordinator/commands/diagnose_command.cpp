@@ -115,7 +115,7 @@ ExitCode run_diagnose(const DiagnoseRequest& request) {
   if (request.proposed > 0) files.emplace_back("proposed.csv");
   make_writable(request.out, files, request.force);
   const Job job = diagnosis_job(request, declared_by(request, known, data));
-  if (refuses(checked, request.force)) {
+  if (refuses(checked, request.force, ShownFindings::ten)) {
     write_refusal(request.out, job.name, checked);
     return ExitCode::contradiction;
   }

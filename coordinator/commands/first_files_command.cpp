@@ -10,6 +10,8 @@
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
+#include "data_check/check_data.hpp"
+#include "data_check/finding.hpp"
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/draft_data_set.hpp"
@@ -69,19 +71,28 @@ ToldLayout told_layout(const NewRequest& request) {
   return told;
 }
 
-/// The first draft whose rows fit together, written; throws what is wrong with the likeliest where none does.
+/// Of the drafts whose rows fit together the first that the check of the data finds least wrong with, written; throws
+/// what is wrong with the likeliest where none does.
 DataSetDraft write_fitting_draft(const std::filesystem::path& file, const std::vector<DataSetDraft>& drafts) {
   std::optional<InputError> first_fault;
+  const DataSetDraft* best = nullptr;
+  DataVerdict least = DataVerdict::contradiction;
   for (const DataSetDraft& draft : drafts) {
     write_file(file, draft.text);
     try {
-      load_data_set(file);
-      return draft;
+      DataSet data = load_data_set(file);
+      const DataVerdict verdict = drafts.size() == 1 ? least : check_without_copies(data).verdict();
+      if (best != nullptr && verdict >= least) continue;
+      best = &draft;
+      least = verdict;
+      if (verdict == DataVerdict::plausible) break;
     } catch (const InputError& fault) {
       if (!first_fault) first_fault = fault;
     }
   }
-  throw InputError(*first_fault);
+  if (best == nullptr) throw InputError(*first_fault);
+  write_file(file, best->text);
+  return *best;
 }
 
 /// The arm's file as it will stand in the new folder, and what was assumed of it.
@@ -114,8 +125,8 @@ ExitCode run_new(const NewRequest& request) {
   for (const std::string& sentence : draft.assumed) fmt::print("  {}\n", sentence);
   for (const std::string& note : arm.notes) fmt::print("Check in robot.yaml: {}\n", note);
   fmt::print("Check in robot.yaml: dimensions, signs and offsets of joints, tool_mm.\n");
-  if (refuses(checked, false)) return ExitCode::contradiction;
-  fmt::print("{}", to_terminal(data_check_entry(checked.check)));
+  if (refuses(checked, false, ShownFindings::all)) return ExitCode::contradiction;
+  fmt::print("{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   fmt::print("Next: demecal calibrate {}/job.yaml --out {}/result\n", request.folder, request.folder);
   return ExitCode::done;
 }

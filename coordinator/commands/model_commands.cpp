@@ -169,7 +169,7 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
   say_if_fleet(model, request.model_file);
   CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
   const DataSet& data = checked.data;
-  if (refuses(checked, request.force)) return ExitCode::contradiction;
+  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
   // A fleet stands nowhere: base and tool are those of the data.
   const CorrectedRobot robot = request.refit_base || model.fleet
                                    ? registered(model, data)
@@ -186,7 +186,7 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
   evaluation.touches = has_contacts(data);
   evaluation.length_errors = length_error_entries(data, robot, nullptr);
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
-  fmt::print(stderr, "{}", to_terminal(evaluation.data_check));
+  fmt::print(stderr, "{}", to_terminal(evaluation.data_check, ShownFindings::all));
   for (const UnappliedEffect& one : evaluation.effects_not_applied)
     fmt::print(stderr, "{}: {}\n", data.file, one.sentence);
   fmt::print("{}", request.json ? to_json(evaluation) : to_terminal(evaluation));
@@ -261,8 +261,8 @@ ExitCode run_check(const CheckRequest& request) {
   const DataSet& data = checked.data;
   require_positions(data, "check");
   require_same_nominal_arm(model, data);
-  if (refuses(checked, request.force)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   const ChangeReport change = find_change(model, data, suspects(checked.check));
   if (!request.history.empty()) keep(request, change, data);
   fmt::print("{}",

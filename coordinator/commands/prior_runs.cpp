@@ -22,7 +22,7 @@ ExitCode run_with_prior(PriorRun run) {
   run.job.declared.registration = run.job.declared.tool = true;
   run.job.method = Method::diagnose;
   make_writable(run.out, result_files(Method::diagnose), run.force);
-  if (refuses(checked, run.force)) {
+  if (refuses(checked, run.force, ShownFindings::ten)) {
     write_refusal(run.out, run.job.name, checked);
     return ExitCode::contradiction;
   }

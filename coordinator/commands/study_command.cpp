@@ -114,8 +114,8 @@ ExitCode calibrate_grid(const StudyRequest& request) {
   const CheckedData checked = request.data_file.empty()
                                   ? load_checked(first.data_files, first.station_tools, request.force)
                                   : load_checked(request.data_file);
-  if (refuses(checked, request.force)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check)));
+  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   const DataSet& data = checked.data;
   make_writable(request.out, {"study.csv", "study.json"}, request.force);
   Study study = study_of(request, axes, cells, data);

@@ -191,7 +191,11 @@ TEST(CheckData, TakesCopiesOutSoThatTheyAreNoRepeats) {
 TEST(CheckData, SaysOfCopiesThatWereJoinedToOneLineThatTheyAreTwoRows) {
   DataSet data = case_of("rows copied with their ids").data;
   for (std::size_t i = 0; i < data.poses.size(); ++i) data.poses[i].line = i + 2;
+  DataSet unnamed = data;
+  for (MeasuredPose& pose : unnamed.poses) pose.pose_id = line_name(pose.line);
   EXPECT_THAT(take_out_copies(data).front().sentence, HasSubstr(" repeats line "));
+  EXPECT_THAT(take_out_copies(unnamed).front().sentence,
+              ::testing::ContainsRegex("^Line [0-9]+ repeats line [0-9]+ to the last digit"));
   data.poses.push_back(data.poses.front());
   const std::string line = std::to_string(data.poses.front().line) + " (" + data.poses.front().pose_id + ")";
   EXPECT_EQ(take_out_copies(data).front().sentence,

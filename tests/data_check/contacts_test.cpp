@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "data_check/check_data.hpp"
 #include "fitting/touching_arm.hpp"
+#include "kinematics/units.hpp"
 
 namespace demecal {
 namespace {
@@ -61,6 +65,55 @@ TEST(CheckContacts, BlamesNoPoseForWhatAnEffectDoesToMany) {
     DataSet data = socket_data(seed);
     for (std::size_t pose = 0; pose < data.poses.size(); pose += 6) data.poses[pose].joints[1] += 1.5e-3;
     EXPECT_THAT(check_data(data).findings, IsEmpty());
+  }
+}
+
+DataSet with_known_lengths(DataSet data) {
+  for (const char* side : {"left", "right"})
+    data.contacts.distances.push_back({std::string(side) + "-0", std::string(side) + "-1", 0.05, 5e-5});
+  return data;
+}
+
+TEST(CheckContacts, SaysNothingOfKnownLengthsThatAreRight) {
+  for (const std::uint64_t seed : {9311u, 9312u, 9313u})
+    EXPECT_THAT(check_data(with_known_lengths(socket_data(seed))).findings, IsEmpty());
+}
+
+TEST(CheckContacts, NamesTheUnitOfKnownLengths) {
+  for (const auto& [factor, unit] : {std::pair(1e-3, "metres"), std::pair(0.1, "centimetres"),
+                                     std::pair(1 / 25.4, "inches"), std::pair(1e3, "micrometres")}) {
+    DataSet data = with_known_lengths(socket_data(9314));
+    for (KnownDistance& known : data.contacts.distances) known.length_m *= factor;
+    const DataCheck check = check_data(data);
+    ASSERT_EQ(check.findings.size(), 2u) << unit;
+    for (const Finding& finding : check.findings) {
+      EXPECT_EQ(finding.kind, FindingKind::unit);
+      EXPECT_THAT(finding.sentence, HasSubstr(std::string("the length fits if it is in ") + unit));
+    }
+    EXPECT_EQ(check.verdict(), DataVerdict::contradiction);
+  }
+}
+
+TEST(CheckContacts, NamesAKnownLengthThatIsOfNoUnit) {
+  DataSet data = with_known_lengths(socket_data(9315));
+  data.contacts.distances[1].length_m *= 3.0;
+  const DataCheck check = check_data(data);
+  ASSERT_EQ(check.findings.size(), 1u);
+  EXPECT_EQ(check.findings[0].kind, FindingKind::wrong_length);
+  EXPECT_THAT(check.findings[0].sentence, HasSubstr("'right-0' and 'right-1' are 150 mm apart as given"));
+}
+
+TEST(CheckContacts, NamesJointsInAnotherUnit) {
+  for (const bool one : {false, true}) {
+    DataSet data = with_known_lengths(socket_data(9316));
+    for (MeasuredPose& pose : data.poses)
+      for (int joint = 0; joint < pose.joints.size(); ++joint)
+        if (!one || joint == 3) pose.joints[joint] *= radians(1.0);
+    const DataCheck check = check_data(data);
+    ASSERT_FALSE(check.findings.empty()) << one;
+    EXPECT_EQ(check.findings.front().kind, FindingKind::unit) << check.findings.front().sentence;
+    EXPECT_EQ(check.findings.front().joint, one ? 3 : -1);
+    EXPECT_EQ(check.verdict(), DataVerdict::contradiction);
   }
 }
 

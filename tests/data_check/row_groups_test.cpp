@@ -10,6 +10,7 @@
 
 #include "data_check/check_data.hpp"
 #include "kinematics/units.hpp"
+#include "measured_arm.hpp"
 #include "mistaken_case.hpp"
 #include "random/random_stream.hpp"
 
@@ -83,6 +84,38 @@ TEST(RowGroups, AMistakeInSomeOfTheRowsIsNamedWithThem) {
           EXPECT_THAT(finding->sentence, ::testing::HasSubstr(mistake.words)) << of;
           EXPECT_GT(finding->poses.size(), 3 * wrong.size() / 4) << of;
           for (const std::string& pose : finding->poses) EXPECT_TRUE(wrong.contains(pose)) << pose << of;
+        }
+      }
+    }
+  }
+}
+
+/// 60 calibration poses, of an arm whose joints err by `gears_rad` twice a turn.
+DataSet sixty_poses(const Robot& arm, double gears_rad) {
+  RandomStream random{7};
+  Scenario scenario = bench::scenario_of(arm, {.poses = {60, 0, 0}}, random);
+  for (int joint = 0; joint < arm.chain.size(); ++joint)
+    scenario.gear_harmonics.push_back({joint, 2.0, gears_rad, -gears_rad});
+  DataSet data = bench::dealt(scenario);
+  for (MeasuredPose& pose : data.poses) pose.set = PoseSet::calibration;
+  return data;
+}
+
+TEST(RowGroups, TheLastRowsInAnotherUnitAreNoOutliersAndNoMoveOfTheInstrument) {
+  for (const Robot& arm : measured_robots()) {
+    for (const double gears_rad : {0.0, 2e-3}) {
+      const DataSet right = sixty_poses(arm, gears_rad);
+      EXPECT_EQ(check_data(right).verdict(), DataVerdict::plausible) << arm.name << all_sentences(check_data(right));
+      for (const double factor : {1e-3, 1 / 25.4, 0.1, 1e3}) {
+        for (const std::size_t rows : {6, 10}) {
+          DataSet wrong = right;
+          for (std::size_t i = 60 - rows; i < 60; ++i) *wrong.poses[i].position_m *= factor;
+          const DataCheck check = check_data(wrong);
+          const std::string of = arm.name + "\n" + all_sentences(check);
+          EXPECT_FALSE(check.has(FindingKind::instrument_moved)) << of;
+          const Finding* finding = first_of(check, FindingKind::unit);
+          ASSERT_NE(finding, nullptr) << of;
+          EXPECT_EQ(finding->poses.size(), rows) << of;
         }
       }
     }

@@ -89,6 +89,55 @@ TEST_P(FirstHour, MakesAModelOfFilesOfOtherPrograms) {
   EXPECT_EQ(evaluated.code, 0) << evaluated.err;
 }
 
+/// The same with both clocks in seconds, the tracker's 4 s ahead, a log that begins before and ends after, and a point
+/// that lies where no robot file says.
+void write_measurement_of_unknown_tool(const SmallJob& job, const Robot& robot, RandomStream& random) {
+  std::ofstream tracker(job.path("tracker.csv")), log(job.path("joints.csv"));
+  tracker << "time_s,x_mm,y_mm,z_mm\n";
+  log << "time_s,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\n";
+  double time_s = 0.0;
+  JointVector before = JointVector::Zero(6), q = before;
+  const auto stand = [&](int rows) {
+    for (int row = 0; row < rows; ++row, time_s += 0.1) {
+      log << number_text(std::round(10.0 * time_s) / 10.0);
+      const double way = std::min(1.0, row / 12.0);
+      for (Eigen::Index j = 0; j < 6; ++j) log << ',' << number_text(degrees((1.0 - way) * before[j] + way * q[j]));
+      log << '\n';
+    }
+    before = q;
+  };
+  stand(100);
+  for (int pose = 0; pose < 40; ++pose) {
+    for (Eigen::Index j = 0; j < 6; ++j) {
+      const Joint& joint = robot.chain.joints[static_cast<std::size_t>(j)];
+      q[j] = random.real(std::max(joint.lower, -1.2), std::min(joint.upper, 1.2));
+    }
+    stand(30);
+    JointVector real = q;
+    real[1] += 1e-3;
+    const Eigen::Vector3d point_mm = 1e3 * (forward(robot.chain, real) * Eigen::Vector3d(0.11, -0.07, 0.19));
+    tracker << number_text(time_s - 0.8 + 4.0) << ',' << number_text(1500.0 - point_mm.y()) << ','
+            << number_text(point_mm.x() - 300.0) << ',' << number_text(point_mm.z()) << '\n';
+  }
+  stand(100);
+}
+
+TEST(New, FindsTheOffsetOfClocksThatOverlapWhereTheToolIsUnknown) {
+  const SmallJob job;
+  RandomStream random{314};
+  Robot robot = load_robot(shipped_robot("ur10"));
+  write_measurement_of_unknown_tool(job, robot, random);
+  const Ended made = run("demecal", {"new", job.path("cell"), "--robot", shipped_robot("ur10"), "--poses",
+                                     job.path("tracker.csv"), job.path("joints.csv")});
+  ASSERT_EQ(made.code, 0) << made.err << made.out;
+  EXPECT_THAT(job.text("cell/dataset.yaml"), HasSubstr("offset_s: auto"));
+  EXPECT_THAT(made.err, HasSubstr("the tool was fitted for it, "));
+  const Ended fitted =
+      run("demecal", {"diagnose", job.path("cell/dataset.yaml"), "--declare", "registration,tool,joint_offset",
+                      "--max-effects", "0", "--out", job.path("result")});
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+}
+
 class FirstHourWithUrdf : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(FirstHourWithUrdf, TakesTheUrdfAsItIsAndALogWithItsJointsNames) {

@@ -6,11 +6,11 @@
 namespace demecal {
 namespace {
 
-bool says(const ChangeReport& change, const std::string& words) {
+bool says(const ChangeReport& change, const std::string& words, const std::string& name = "P") {
   DataSet data;
   for (const std::size_t line : {2U, 3U, 4U}) {
     MeasuredPose pose;
-    pose.pose_id = "P";
+    pose.pose_id = name;
     pose.line = line;
     data.poses.push_back(pose);
   }
@@ -25,6 +25,7 @@ TEST(ChangeReport, NamesWhatWasLeftOutByItsLine) {
   change.outliers = {0, 2};
   EXPECT_TRUE(says(
       change, "left out, since they fit neither the robot as it was nor any change of it: P (line 2), P (line 4)"));
+  EXPECT_TRUE(says(change, "any change of it: line 2, line 2 (line 4)", "line 2"));
   change.measurements = 6;
   EXPECT_TRUE(says(change, "2 poses measured 6 times"));
 }

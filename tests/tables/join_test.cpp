@@ -86,23 +86,36 @@ struct LoggedArm {
   std::vector<std::size_t> pose_of_log_row;  ///< the pose it stands at; of a moving arm the next one
 };
 
-LoggedArm logged_arm(RandomStream& random, std::size_t poses, double offset_s) {
+Eigen::Isometry3d between(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to, double way) {
+  Eigen::Isometry3d there = Eigen::Isometry3d::Identity();
+  there.linear() = Eigen::Quaterniond(from.linear()).slerp(way, Eigen::Quaterniond(to.linear())).toRotationMatrix();
+  there.translation() = (1.0 - way) * from.translation() + way * to.translation();
+  return there;
+}
+
+/// The point that is measured lies `tool_m` from the flange, which the arm's file does not know.
+LoggedArm logged_arm(RandomStream& random, std::size_t poses, double offset_s,
+                     const Eigen::Vector3d& tool_m = Eigen::Vector3d::Zero()) {
   constexpr int kRowsPerPose = 20;
   constexpr double kStep_s = 0.1;
-  std::vector<Eigen::Vector3d> stops;
-  for (std::size_t i = 0; i < poses; ++i) stops.push_back(Eigen::Vector3d(random.real(), random.real(), random.real()));
+  std::vector<Eigen::Isometry3d> stops;
+  for (std::size_t i = 0; i < poses; ++i) {
+    stops.emplace_back(Eigen::Translation3d(random.real(), random.real(), random.real()));
+    const Eigen::Vector4d turn(random.normal(), random.normal(), random.normal(), random.normal());
+    stops.back().linear() = Eigen::Quaterniond(turn).normalized().toRotationMatrix();
+  }
   LoggedArm arm;
   double time_s = 0.0;
   for (std::size_t pose = 0; pose < poses; ++pose) {
-    const Eigen::Vector3d from = pose > 0 ? stops[pose - 1] : stops[0];
+    const Eigen::Isometry3d from = pose > 0 ? stops[pose - 1] : stops[0];
     for (int row = 0; row < kRowsPerPose; ++row, time_s += kStep_s) {
       const double way = std::min(1.0, row / 8.0);
       arm.keys[1].times_s.push_back(time_s);
-      arm.points.predicted_m.push_back((1.0 - way) * from + way * stops[pose]);
+      arm.points.flanges.push_back(between(from, stops[pose], way));
       arm.pose_of_log_row.push_back(pose);
     }
     arm.keys[0].times_s.push_back(time_s - 6.3 * kStep_s + offset_s);
-    arm.points.measured_m.push_back(stops[pose] +
+    arm.points.measured_m.push_back(stops[pose] * tool_m +
                                     1e-4 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()));
   }
   arm.tables = {table_of_rows("m.txt", poses), table_of_rows("j.csv", arm.keys[1].times_s.size())};
@@ -113,34 +126,65 @@ TEST(JoinByTime, FindsTheOffsetOfTheClocksByTheArmsMotion) {
   RandomStream random{82};
   for (const double offset_s : {0.0, 3.7, -41.2, 1.7e5}) {
     const LoggedArm arm = logged_arm(random, 12, offset_s);
-    const double found_s = find_offset_s(arm.tables[0], arm.keys[0], arm.tables[1], arm.keys[1], arm.points, 0.1);
+    const double found_s =
+        find_offset(arm.tables[0], arm.keys[0], arm.tables[1], arm.keys[1], arm.points, 0.1).offset_s;
     EXPECT_NEAR(found_s, offset_s, 0.7);  // the arm stands for 1.2 s
     const JoinedRows joined = join_by_time(arm.tables, arm.keys, 0, {.by = JoinBy::time, .within_s = 0.1}, found_s);
     for (std::size_t pose = 0; pose < joined.rows.size(); ++pose) {
       const std::size_t row = joined.rows[pose][1];
-      EXPECT_LT((arm.points.predicted_m[row] - arm.points.measured_m[pose]).norm(), 1e-3) << offset_s << ' ' << pose;
+      EXPECT_LT((arm.points.flanges[row].translation() - arm.points.measured_m[pose]).norm(), 1e-3)
+          << offset_s << ' ' << pose;
     }
   }
+}
+
+TEST(JoinByTime, FindsTheOffsetWhereTheToolIsUnknown) {
+  RandomStream random{84};
+  const Eigen::Isometry3d base(Eigen::Translation3d(2.0, -1.0, 0.3) * Eigen::AngleAxisd(1.2, Eigen::Vector3d::UnitZ()));
+  for (const double offset_s : {0.0, -5.3, 4.1e4}) {
+    const Eigen::Vector3d tool_m(0.12, -0.08, 0.21);
+    LoggedArm arm = logged_arm(random, 14, offset_s, tool_m);
+    for (Eigen::Vector3d& point : arm.points.measured_m) point = base * point;
+    const ClockOffset found = find_offset(arm.tables[0], arm.keys[0], arm.tables[1], arm.keys[1], arm.points, 0.1);
+    EXPECT_NEAR(found.offset_s, offset_s, 0.7);
+    ASSERT_TRUE(found.tool_m);
+    EXPECT_LT((*found.tool_m - tool_m).norm(), 1e-3);
+    EXPECT_LT(found.misfit_m, 1e-3);
+    EXPECT_GT(found.rival_m, 1e-2);
+    const JoinedRows joined =
+        join_by_time(arm.tables, arm.keys, 0, {.by = JoinBy::time, .within_s = 0.1}, found.offset_s);
+    for (std::size_t pose = 0; pose < joined.rows.size(); ++pose)
+      EXPECT_EQ(arm.pose_of_log_row[joined.rows[pose][1]], pose);
+  }
+}
+
+TEST(JoinByTime, FitsNoToolToPointsOfAnotherMeasurement) {
+  RandomStream random{85};
+  const LoggedArm arm = logged_arm(random, 14, 0.0), other = logged_arm(random, 14, 0.0, {0.1, 0.1, 0.1});
+  EXPECT_THAT(complaint([&] {
+                find_offset(other.tables[0], other.keys[0], arm.tables[1], arm.keys[1],
+                            {other.points.measured_m, arm.points.flanges}, 0.1);
+              }),
+              HasSubstr("at no offset of the clocks"));
 }
 
 TEST(JoinByTime, RefusesOffsetsThatCannotBeTold) {
   RandomStream random{83};
   LoggedArm arm = logged_arm(random, 8, 0.0);
-  for (std::size_t i = 0; i < arm.points.predicted_m.size(); ++i)
-    arm.points.predicted_m[i] = Eigen::Vector3d(0.2 * static_cast<double>(arm.pose_of_log_row[i]), 0.0, 0.0);
+  for (std::size_t i = 0; i < arm.points.flanges.size(); ++i)
+    arm.points.flanges[i] = Eigen::Translation3d(0.2 * static_cast<double>(arm.pose_of_log_row[i]), 0.0, 0.0);
   // Of three of eight stops of equal distances any three in a row may be meant.
   for (std::size_t i = 0; i < 3; ++i)
     arm.points.measured_m[i] = Eigen::Vector3d(0.2 * static_cast<double>(i), 0.0, 0.0);
   arm.points.measured_m.resize(3);
   arm.keys[0].times_s.resize(3);
   arm.tables[0] = table_of_rows("m.txt", 3);
-  EXPECT_THAT(
-      complaint([&] { find_offset_s(arm.tables[0], arm.keys[0], arm.tables[1], arm.keys[1], arm.points, 0.1); }),
-      HasSubstr("both fit alike"));
+  EXPECT_THAT(complaint([&] { find_offset(arm.tables[0], arm.keys[0], arm.tables[1], arm.keys[1], arm.points, 0.1); }),
+              HasSubstr("both fit alike"));
   const LoggedArm other = logged_arm(random, 8, 0.0);
   EXPECT_THAT(complaint([&] {
-                find_offset_s(other.tables[0], other.keys[0], arm.tables[1], arm.keys[1],
-                              {other.points.measured_m, arm.points.predicted_m}, 0.1);
+                find_offset(other.tables[0], other.keys[0], arm.tables[1], arm.keys[1],
+                            {other.points.measured_m, arm.points.flanges}, 0.1);
               }),
               HasSubstr("at no offset of the clocks"));
 }

@@ -91,6 +91,21 @@ TEST(Terminal, KeepsEveryWordThatFitsOnALine) {
   EXPECT_EQ(next, 60);
 }
 
+TEST(Terminal, ShowsTenFindingsWhereAReportHasTheOthersAndElseAll) {
+  DataCheckEntry check;
+  for (int i = 1; i <= 12; ++i) {
+    check.findings.emplace_back();
+    check.findings.back().kind = "outlier";
+    check.findings.back().sentence = "finding " + std::to_string(i) + " is here";
+  }
+  const std::string ten = to_terminal(check, ShownFindings::ten), all = to_terminal(check, ShownFindings::all);
+  EXPECT_THAT(ten, HasSubstr("finding 10 is here"));
+  EXPECT_THAT(ten, Not(HasSubstr("finding 11 is here")));
+  EXPECT_THAT(ten, HasSubstr("2 more in report.json"));
+  for (int i = 1; i <= 12; ++i) EXPECT_THAT(all, HasSubstr("finding " + std::to_string(i) + " is here"));
+  EXPECT_THAT(all, Not(HasSubstr("report.json")));
+}
+
 TEST(Terminal, ShowsOneStageWithItsSets) {
   const ErrorBySet errors = made_up_report().after;
   const std::string text = to_terminal(Evaluation{errors, {}, {}, {}, {}});

@@ -1,7 +1,12 @@
 // Few new poses tell whether an arm has changed, and what has; an arm as it was is said to be so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include "errors/input_error.hpp"
+#include "kinematics/units.hpp"
 #include "lacking_numbers.hpp"
 #include "parameters/declared_model.hpp"
 #include "updating/change.hpp"
@@ -75,6 +80,63 @@ TEST(Change, OfTheToolIsNamed) {
   EXPECT_EQ(report.verdict, ChangeVerdict::changed);
   ASSERT_FALSE(report.found.empty());
   EXPECT_TRUE(is(report.found.front(), &DeclaredModel::tool));
+}
+
+void round_joints(DataSet& data, double step_deg) {
+  for (MeasuredPose& pose : data.poses)
+    for (double& joint : pose.joints) joint = radians(step_deg * std::round(degrees(joint) / step_deg));
+}
+
+bool says_rounding(const ChangeReport& report) {
+  return std::ranges::any_of(report.not_testable, [](const std::string& sentence) {
+    return sentence.starts_with("Joints are written to 0.1 deg only");
+  });
+}
+
+TEST(Change, IsNotFoundInJointsThatWereRounded) {
+  int changed = 0, said = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const CalibratedModel model = model_of_seed(seed);
+    for (std::uint64_t again = 0; again < 10; ++again) {
+      DataSet data = measured_wrist(true_wrist(seed), 14, 0, 500 + 10 * seed + again);
+      round_joints(data, 0.1);
+      const ChangeReport report = find_change(model, data);
+      changed += report.verdict == ChangeVerdict::unchanged ? 0 : 1;
+      said += says_rounding(report) ? 1 : 0;
+    }
+  }
+  EXPECT_LE(changed, 5);  // of 40: beyond it is less likely than 2 % at a rate of 5 %
+  EXPECT_EQ(said, 40);
+}
+
+TEST(Change, OfARobotWhoseJointsWereRoundedIsStillFoundWhereItIsLarger) {
+  const CalibratedModel model = model_of_seed(1);
+  CorrectedRobot now = true_wrist(1);
+  now.chain.joints[2].theta_rad += 5e-3;
+  DataSet data = measured_wrist(now, 14, 0, 551);
+  round_joints(data, 0.1);
+  const ChangeReport report = find_change(model, data);
+  EXPECT_EQ(report.verdict, ChangeVerdict::changed);
+  ASSERT_FALSE(report.found.empty());
+  EXPECT_EQ(report.found.front().effect.joint, 2);
+  EXPECT_TRUE(says_rounding(report));
+}
+
+TEST(Change, IsFoundAsUsualWhereJointsWereCommandedInWholeTenthsOfADegree) {
+  const CalibratedModel model = model_of_seed(1);
+  for (const double turned_rad : {0.0, 4e-4}) {
+    CorrectedRobot now = true_wrist(1);
+    now.chain.joints[2].theta_rad += turned_rad;
+    DataSet data = measured_wrist(now, 14, 0, 552);
+    round_joints(data, 0.1);
+    RandomStream random{9303};
+    for (MeasuredPose& pose : data.poses)
+      pose.position_m = now.predict(pose.joints, "").translation() +
+                        kMeasured_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    const ChangeReport report = find_change(model, data);
+    EXPECT_EQ(report.verdict, turned_rad > 0.0 ? ChangeVerdict::changed : ChangeVerdict::unchanged);
+    EXPECT_FALSE(says_rounding(report));
+  }
 }
 
 TEST(Change, StrainsTheModelBeyondTheLimitAndAnUnchangedArmDoesNot) {
