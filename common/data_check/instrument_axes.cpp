@@ -29,9 +29,9 @@ constexpr int kAxesRefits = 3;
 constexpr std::size_t kAxesRows = 1000;      ///< calibration rows that are looked at
 constexpr std::size_t kFewestAxesRows = 20;  ///< below which gears and elasticity alone explain anything
 
-using Stretch = Eigen::Matrix<double, 6, 1>;  ///< xx, yy, zz, xy, xz, yz of a symmetric map less the identity
+using AxesStretch = Eigen::Matrix<double, 6, 1>;  ///< xx, yy, zz, xy, xz, yz of a symmetric map less the identity
 
-Eigen::Matrix3d map_of(const Stretch& stretch) {
+Eigen::Matrix3d map_of(const AxesStretch& stretch) {
   Eigen::Matrix3d map;
   map << 1.0 + stretch[0], stretch[3], stretch[4], stretch[3], 1.0 + stretch[1], stretch[5], stretch[4], stretch[5],
       1.0 + stretch[2];
@@ -50,7 +50,7 @@ Eigen::Matrix<double, 3, 6> stretch_columns(const Eigen::Vector3d& point) {
 
 /// The six numbers that suit errors best beside base, tools, links, gears and elasticity.
 struct StretchEstimate {
-  Stretch size = Stretch::Zero();
+  AxesStretch size = AxesStretch::Zero();
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
 };
 
@@ -141,7 +141,7 @@ class AxesGain {
     Eigen::MatrixXd chosen(6, 1 + std::ssize(numbers));
     chosen.col(0) << 1, 1, 1, 0, 0, 0;
     for (std::size_t i = 0; i < numbers.size(); ++i)
-      chosen.col(1 + static_cast<Eigen::Index>(i)) = Stretch::Unit(numbers[i]);
+      chosen.col(1 + static_cast<Eigen::Index>(i)) = AxesStretch::Unit(numbers[i]);
     return chosen;
   }
   double of(const std::vector<int>& numbers) const {
@@ -199,7 +199,7 @@ Trial many_rows(const DataSet& data, const Trial& whole) {
   return trial;
 }
 
-void take_stretch_away(const Stretch& stretch, const Eigen::Vector3d& middle, Trial& trial) {
+void take_stretch_away(const AxesStretch& stretch, const Eigen::Vector3d& middle, Trial& trial) {
   const Eigen::Matrix3d back = map_of(stretch).inverse();
   for (TrialRow& row : trial.rows) row.point_m = middle + back * (row.point_m - middle);
 }
@@ -211,7 +211,7 @@ std::optional<Finding> find_wrong_axes(const DataSet& data, CheckedRows& rows, T
   if (given.rows.size() < kFewestAxesRows) return std::nullopt;
   const Eigen::Vector3d middle = middle_of(given);
   StretchEstimate estimate;
-  Stretch sum = Stretch::Zero();
+  AxesStretch sum = AxesStretch::Zero();
   Trial trial = given;
   TrialFit fitted = fit;
   for (int i = 0; i < kAxesRefits; ++i) {
@@ -232,7 +232,7 @@ std::optional<Finding> find_wrong_axes(const DataSet& data, CheckedRows& rows, T
   const std::string words = numbers_in_words(numbers, sizes);
   if (gain.by(numbers) < kAxesGain * fitted.rows_per_pose || words.empty()) return std::nullopt;
   if (fitted.median_m > std::min(kImplausibleShare * rows.trial.reach_m(), fit.median_m)) return std::nullopt;
-  Stretch named = Stretch::Zero();
+  AxesStretch named = AxesStretch::Zero();
   for (std::size_t i = 0; i < numbers.size(); ++i) named[numbers[i]] = sizes[1 + static_cast<Eigen::Index>(i)];
   take_stretch_away(named, middle, rows.trial);
   take_stretch_away(named, middle, rows.whole);

@@ -32,7 +32,7 @@ Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted_qr(const Eigen::MatrixXd& a,
   return qr;
 }
 
-MoorePenroseInverse inverse_of(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& decomposition) {
+MoorePenroseInverse inverse_and_rank(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& decomposition) {
   return {decomposition.pseudoInverse(), decomposition.rank()};
 }
 
@@ -198,14 +198,14 @@ Eigen::MatrixXd least_norm_solutions(const Eigen::MatrixXd& a, const Eigen::Matr
 }
 
 MoorePenroseInverse moore_penrose_inverse(const Eigen::MatrixXd& a) {
-  return inverse_of(a.completeOrthogonalDecomposition());
+  return inverse_and_rank(a.completeOrthogonalDecomposition());
 }
 
 MoorePenroseInverse moore_penrose_inverse(const Eigen::MatrixXd& a, double threshold) {
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(threshold);
   decomposition.compute(a);
-  return inverse_of(decomposition);
+  return inverse_and_rank(decomposition);
 }
 
 }  // namespace demecal::inline decompositions
