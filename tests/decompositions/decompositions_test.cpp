@@ -129,8 +129,12 @@ TEST(Decompositions, FindRotationsAndMotions) {
   for (int i = 0; i < 20; ++i) {
     const Eigen::Quaterniond turn(stream.normal(), stream.normal(), stream.normal(), stream.normal());
     const Eigen::Matrix3d rotation = turn.normalized().toRotationMatrix();
-    EXPECT_LT((nearest_rotation(3.0 * rotation) - rotation).norm(), 1e-9);
-    EXPECT_NEAR(nearest_rotation(random_matrix(stream, 3, 3)).determinant(), 1.0, 1e-9);
+    // Stretched along any axes, and never a reflection.
+    const Eigen::Matrix3d axes = orthogonal_factor(random_matrix(stream, 3, 3), 3);
+    const Eigen::Vector3d stretch(stream.real(0.5, 2), stream.real(0.5, 2), stream.real(0.5, 2));
+    const Eigen::Matrix3d stretched = rotation * axes * stretch.asDiagonal() * axes.transpose();
+    EXPECT_LT((nearest_rotation(stretched) - rotation).norm(), 1e-10);
+    EXPECT_NEAR(nearest_rotation(-stretched).determinant(), 1.0, 1e-12);
     const Eigen::Vector3d shift = random_matrix(stream, 3, 1);
     const Eigen::Matrix3Xd from = random_matrix(stream, 3, 8), to = (rotation * from).colwise() + shift;
     const Eigen::Isometry3d motion = rigid_motion(from, to);

@@ -65,16 +65,5 @@ TEST(BaseSearch, FindsAnUnknownToolAlongASmoothPath) {
   }
 }
 
-TEST(NearestRotation, IsTheOneThatWasStretchedAndNeverAReflection) {
-  RandomStream stream{53};
-  for (int trial = 0; trial < 50; ++trial) {
-    const Eigen::Matrix3d rotation = far_pose(stream).linear(), axes = far_pose(stream).linear();
-    const Eigen::Vector3d stretch(stream.real(0.5, 2), stream.real(0.5, 2), stream.real(0.5, 2));
-    const Eigen::Matrix3d stretched = rotation * axes * stretch.asDiagonal() * axes.transpose();
-    EXPECT_LT((nearest_rotation(stretched) - rotation).norm(), 1e-10);
-    EXPECT_NEAR(nearest_rotation(-stretched).determinant(), 1.0, 1e-12);
-  }
-}
-
 }  // namespace
 }  // namespace demecal
