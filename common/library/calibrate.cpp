@@ -91,7 +91,9 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   auto arm = std::make_shared<CalibratedArm::Implementation>();
   arm->model = std::move(result.model);
   arm->text = model_text(arm->model);
-  arm->model.robot = read_model(arm->text, "model.yaml").robot;
+  CalibratedModel written = read_model(arm->text, "model.yaml");  // whose numbers have fewer digits here and there
+  arm->model.robot = std::move(written.robot);
+  arm->model.posterior = std::move(written.posterior);
   return CalibratedArm(std::move(arm));
 }
 

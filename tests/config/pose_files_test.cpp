@@ -148,7 +148,7 @@ join: {by: time, within_s: 0.1, offset_s: auto}
 )yaml");
   const DescribedDataSet read = load_described_data_set(path);
   expect_poses(read.data, cell);
-  EXPECT_THAT(read.recognised.back(), HasSubstr("(found by the arm's motion)"));
+  EXPECT_THAT(read.recognised.back(), HasSubstr("(found by the arm's motion: arm and points then agree to "));
 }
 
 TEST(PoseFiles, SayWhichWereTakenWhileTheArmMovedHoweverNearRowsAreJoined) {
