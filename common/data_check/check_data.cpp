@@ -183,7 +183,14 @@ class DataChecker {
 
   /// Sets that fit only by themselves, then single poses of all sets.
   void check_rows() {
-    for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) check_set(set);
+    for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) {
+      if (auto read = explain_wrong_rows(data_, whole_, fit_, set)) {
+        add(std::move(*read));
+      } else {
+        check_set(set);
+      }
+    }
+    if (check_.verdict() == DataVerdict::contradiction) return;
     const PointPrediction predict{[this](const TrialRow& row) { return predicted_point(fit_, row); },
                                   [this](const TrialRow& row) { return fit_.deviations_off(row); }};
     for (Finding& finding : find_single_poses(data_, whole_.rows, predict, kNotableShare * trial_.reach_m()))

@@ -179,7 +179,7 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
                                    gain(fit_arm_to_all(trial, fit).error_m, both.error_m, deviation_m));
     const bool found = gained > kLeastGain * both.rows_per_pose &&
                        move.shift_m > std::max(kLeastShift * deviation_m, kSmallestShift_m) &&
-                       move.if_changed_m < kLeastFall * move.as_given_m;
+                       move.if_changed_m < std::min(kLeastFall * move.as_given_m, kMostOverUsual * both.usual_m);
     auto jump = find_zero_jump(trial, fit);
     if (jump && (!found || cost_nats(jump->fit, 1, *jump) < cost_nats(both, 6, *jump))) {
       moves.push_back(jump->move);

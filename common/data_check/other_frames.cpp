@@ -107,7 +107,8 @@ std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow
   const bool is_tool = tool_m < 1.15 * frame_m;
   const std::vector<Eigen::Vector3d>& better = is_tool ? by_tool : by_frame;
   const OtherSet other{is_tool, root_mean_square(given, better), as_given_m, is_tool ? tool_m : frame_m};
-  if (other.if_changed_m > kLeastFall * as_given_m) return std::nullopt;
+  const bool fits = other.if_changed_m < std::min(kLeastFall * as_given_m, kMostOverUsual * fit.usual_m);
+  if (!fits) return std::nullopt;
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].point_m += given[i] - better[i];
   return other;
 }

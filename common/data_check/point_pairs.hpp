@@ -10,6 +10,9 @@ namespace demecal::inline data_check {
 
 inline constexpr double kLeastFall = 0.4;  ///< ratio of median errors that is far better
 inline constexpr double kSmallestShift_m = 1e-4;
+/// Deviations that fitted links usually leave, beyond which rows do not fit wherever they were measured from: 0.6 % of
+/// the reach at the median.
+inline constexpr double kMostOverUsual = 30.0;
 
 /// Points of the arm in its base, and as they were measured.
 struct PointPairs {

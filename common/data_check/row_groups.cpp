@@ -40,10 +40,11 @@ struct GroupReading {
 
 class WrongRows {
  public:
-  WrongRows(const DataSet& data, const Trial& whole, const TrialFit& fit) : data_(data), whole_(whole), fit_(fit) {
+  WrongRows(const DataSet& data, const Trial& whole, const TrialFit& fit, PoseSet set = PoseSet::calibration)
+      : data_(data), whole_(whole), fit_(fit), set_(set) {
     limit_m_ = std::max(kNotableShare * whole.reach_m(), kOffOverMedian * fit.median_m);
     for (std::size_t i = 0; i < whole_.rows.size(); ++i) {
-      if (data_.poses[whole_.rows[i].pose].set != PoseSet::calibration) continue;
+      if (data_.poses[whole_.rows[i].pose].set != set_) continue;
       const double error_m = error(whole_.rows[i]);
       if (error_m > limit_m_) off_.push_back(i), errors_m_.push_back(error_m), places_.push_back(fitted_);
       ++fitted_;
@@ -56,7 +57,12 @@ class WrongRows {
   }
 
   /// The rows that are off are fewer, but stand together as rows of another file or of a later day do.
-  bool are_a_block() const { return !are_many() && off_.size() >= kFewestOff && stand_together(places_); }
+  /// Of a set that the fit did not see it may be all.
+  bool are_a_block() const {
+    const bool too_many =
+        set_ == PoseSet::calibration && static_cast<double>(off_.size()) > kMostRows * static_cast<double>(fitted_);
+    return !are_many() && !too_many && off_.size() >= kFewestOff && stand_together(places_);
+  }
 
   /// The rows that are off by more than `least_m` alone are many.
   bool are_many_beyond(double least_m) const {
@@ -233,17 +239,18 @@ class WrongRows {
   const DataSet& data_;
   const Trial& whole_;
   const TrialFit& fit_;
+  PoseSet set_;
   double limit_m_ = 0.0;
-  std::size_t fitted_ = 0;             ///< rows of the calibration set
+  std::size_t fitted_ = 0;             ///< rows of the set
   std::vector<std::size_t> off_{};     ///< those of them that do not fit
   std::vector<double> errors_m_{};     ///< of each that is off
-  std::vector<std::size_t> places_{};  ///< of each among the calibration rows
+  std::vector<std::size_t> places_{};  ///< of each among the rows of the set
 };
 
 }  // namespace
 
-std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit) {
-  const WrongRows wrong(data, whole, fit);
+std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit, PoseSet set) {
+  const WrongRows wrong(data, whole, fit, set);
   return wrong.are_many() || wrong.are_a_block() ? wrong.explained() : std::nullopt;
 }
 

@@ -36,10 +36,11 @@ struct CheckedRows {
 std::vector<Finding> find_contradictions(const DataSet& data, const CheckedRows& rows, const TrialFit& placed,
                                          const TrialFit& fit);
 
-/// Where 15 % of the calibration rows and more are off while the others fit `fit` to a tenth of that: how they fit, if
+/// Where 15 % of the rows of a set and more are off while the others fit `fit` to a tenth of that: how they fit, if
 /// by a sign, offset, exchange, unit, pair of axes or targets, or a shift of rows. Fewer rows that stand together, five
 /// at least, are read in the same ways, but for shifts and offsets of any size. Base, tools and links are held.
-std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);
+std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit,
+                                          PoseSet set = PoseSet::calibration);
 
 /// The same rows where they are farther off than any arm errs, and nothing that was tried explains them.
 std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);

@@ -122,6 +122,30 @@ TEST(RowGroups, TheLastRowsInAnotherUnitAreNoOutliersAndNoMoveOfTheInstrument) {
   }
 }
 
+TEST(RowGroups, ASetThatIsReadOtherwiseIsNotMeasuredInAnotherFrame) {
+  const std::vector<PartMistake> mistakes{{FindingKind::unit, "positions are in metres where millimetres are stated",
+                                           [](MeasuredPose& pose) { *pose.position_m *= 1e-3; }},
+                                          {FindingKind::joint_sign, "joint 5 is taken with the other sign",
+                                           [](MeasuredPose& pose) { pose.joints[4] *= -1; }},
+                                          {FindingKind::joints_exchanged, "the columns of joints 1 and 2 are exchanged",
+                                           [](MeasuredPose& pose) { std::swap(pose.joints[0], pose.joints[1]); }}};
+  for (const DataSet& right : arms_measured(8)) {
+    for (const PartMistake& mistake : mistakes) {
+      for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) {
+        DataSet data = right;
+        for (const std::size_t pose : poses_of(data, set)) mistake.make(data.poses[pose]);
+        const DataCheck check = check_data(data);
+        const std::string of = data.robot.name + ", " + mistake.words + ":\n" + all_sentences(check);
+        ASSERT_EQ(check.findings.size(), 1u) << of;
+        EXPECT_EQ(check.findings.front().kind, mistake.kind) << of;
+        EXPECT_THAT(check.findings.front().sentence, ::testing::HasSubstr(mistake.words)) << of;
+        EXPECT_GT(check.findings.front().poses.size(), 9 * poses_of(data, set).size() / 10) << of;
+        EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << of;
+      }
+    }
+  }
+}
+
 TEST(RowGroups, RowsOffByOneInTheMiddleAreNamed) {
   for (const DataSet& right : arms_measured(5)) {
     DataSet data = right;
