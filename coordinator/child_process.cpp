@@ -26,6 +26,7 @@ namespace demecal {
 namespace {
 
 constexpr rlim_t kLargestFile = rlim_t{1} << 30;
+constexpr int kUnknownEnd = 127;
 
 /// In the child: becomes the program, or ends with 127. Only what is safe between fork and exec of a program with
 /// threads.
@@ -73,8 +74,10 @@ void ChildProcess::interrupt() {
 
 std::optional<int> ChildProcess::exit_code() {
   int status = 0;
-  if (!exit_code_ && ::waitpid(process_, &status, WNOHANG) == process_)
-    exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (exit_code_) return exit_code_;
+  const pid_t ended = ::waitpid(process_, &status, WNOHANG);
+  if (ended == process_) exit_code_ = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (ended < 0) exit_code_ = kUnknownEnd;
   return exit_code_;
 }
 
@@ -135,7 +138,8 @@ bool runs_well(std::vector<std::string> words) {
   }
   const auto end = std::chrono::steady_clock::now() + kLongestWait;
   int status = 0;
-  while (::waitpid(child, &status, WNOHANG) == 0) {
+  pid_t ended = 0;
+  while ((ended = ::waitpid(child, &status, WNOHANG)) == 0) {
     if (std::chrono::steady_clock::now() > end) {
       ::kill(-child, SIGKILL);
       ::waitpid(child, &status, 0);
@@ -143,7 +147,7 @@ bool runs_well(std::vector<std::string> words) {
     }
     std::this_thread::sleep_for(kExitPollInterval);
   }
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  return ended == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ class ChildProcess {
 
   /// SIGINT, once.
   void interrupt();
-  /// Its exit code, or 128 and the signal that ended it; nothing while it runs.
+  /// Its exit code, or 128 and the signal that ended it; nothing while it runs. 127, as of a program that cannot be
+  /// started, where the system no longer knows how it ended.
   std::optional<int> exit_code();
 
  private:

@@ -18,6 +18,7 @@
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
+#include "fitting/base_search.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -61,7 +62,6 @@ double upright_if_exchanged(const Eigen::Matrix3d& base, int one, int other) {
   return std::abs(z.z());
 }
 
-constexpr double kOtherTool_m = 0.01;    ///< as CommandModel's: farther off another tool was measured
 constexpr double kSureDeviations = 5.0;  ///< by which the tool is known to be elsewhere
 constexpr double kTurnedTool_m = 3e-3;   ///< within which a tool stands where a turn of the last joint puts it
 

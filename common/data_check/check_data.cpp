@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "data/read_poses.hpp"
+#include "data/spread_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
@@ -71,7 +72,7 @@ class DataChecker {
     std::vector<std::size_t> rows;
     for (std::size_t i = 0; i < whole_.rows.size(); ++i)
       if (data_.poses[whole_.rows[i].pose].set == PoseSet::calibration) rows.push_back(i);
-    for (const std::size_t i : spread_indices(rows.size(), kTrialRows)) trial.rows.push_back(whole_.rows[rows[i]]);
+    for (const std::size_t i : spread_poses(rows, kTrialRows)) trial.rows.push_back(whole_.rows[i]);
     return trial;
   }
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "data/spread_poses.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 

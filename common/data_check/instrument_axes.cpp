@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/spread_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/joint_side.hpp"

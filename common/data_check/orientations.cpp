@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "data/spread_poses.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "data/spread_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/point_pairs.hpp"
 #include "data_check/trial_fit.hpp"

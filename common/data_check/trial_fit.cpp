@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
 #include <set>
 #include <utility>
 
@@ -281,17 +280,6 @@ Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eige
   motion.linear() = nearest_rotation(cross);
   motion.translation() = to_mean - motion.linear() * from_mean;
   return motion;
-}
-
-std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count) {
-  std::vector<std::size_t> indices;
-  // Multiples of the golden ratio fall evenly and share no period with the order of targets.
-  const double share = static_cast<double>(count) / static_cast<double>(size);
-  for (std::size_t i = 0; i < size; ++i) {
-    double whole = 0.0;
-    if (size <= count || std::modf(static_cast<double>(i) * std::numbers::phi, &whole) < share) indices.push_back(i);
-  }
-  return indices;
 }
 
 }  // namespace demecal::inline data_check

@@ -94,7 +94,4 @@ Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row);
 Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
                                         const Eigen::VectorXd& weights);
 
-/// About `count` of 0 .. `size` - 1 (all where there are no more), spread evenly over them, ascending.
-std::vector<std::size_t> spread_indices(std::size_t size, std::size_t count);
-
 }  // namespace demecal::inline data_check

@@ -11,6 +11,7 @@
 #include "distal/index.hpp"
 #include "evolution/population.hpp"
 #include "expression/evaluate.hpp"
+#include "expression/rounded_constant.hpp"
 #include "expression/tree.hpp"
 #include "fitness/fitness.hpp"
 #include "kinematics/chain.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 constexpr double kLeastIndexGain = 1e-4;  ///< of the linearized index, by a choice that counts
 constexpr double kLargestFactor = 10.0;
-constexpr double kScaleDigits = 3.0;  ///< that formulas show
+constexpr int kScaleDigits = 3;  ///< that formulas show
 
 /// A formula that a joint may have; its place is that of its shape.
 struct CandidateOffer {
@@ -31,12 +32,6 @@ struct CandidateOffer {
   bool is_present = false;
   bool is_refused = false;
 };
-
-/// A power of ten divides exactly, so that the number prints with as few digits.
-double rounded_scale(double scale_rad) {
-  const double power = std::pow(10.0, kScaleDigits - 1.0 - std::floor(std::log10(std::abs(scale_rad))));
-  return std::round(scale_rad * power) / power;
-}
 
 class CandidateChoice {
  public:
@@ -175,7 +170,7 @@ JointCorrection CandidateChoice::correction(std::size_t place, double factor) co
   const CandidateOffer& offer = offers_[place];
   if (factor == 1.0 && offer.is_present) return robot_.corrections[candidates_[offer.list].training.joint];
   JointTraining training = candidates_[offer.list].training;
-  training.scale_rad = factor == 1.0 ? offer.scale_rad : rounded_scale(factor * offer.scale_rad);
+  training.scale_rad = factor == 1.0 ? offer.scale_rad : rounded_constant(factor * offer.scale_rad, kScaleDigits);
   return correction_from(training, offer.tree);
 }
 

@@ -9,11 +9,11 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
 
+#include "data/spread_poses.hpp"
 #include "decompositions/decompositions.hpp"
 #include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
@@ -29,17 +29,6 @@ constexpr int kFirstIterations = 10;
 /// More than base and tool leave of most arms: the tool as described may have led to another minimum.
 constexpr double kMisplaced_m = 1e-3;
 constexpr double kFarLess = 0.25;  ///< of the cost, below which another minimum is taken: equals stay as they were
-
-/// At most `count` of the poses, spread over all: multiples of a stride that shares no divisor with their number, so
-/// that targets measured in turn all occur.
-std::vector<std::size_t> spread_poses(std::span<const std::size_t> poses, std::size_t count) {
-  if (poses.size() <= count) return {poses.begin(), poses.end()};
-  auto stride = static_cast<std::size_t>(static_cast<double>(poses.size()) / std::numbers::phi);
-  while (std::gcd(stride, poses.size()) != 1) ++stride;
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < count; ++i) chosen.push_back(poses[(i * stride) % poses.size()]);
-  return chosen;
-}
 
 /// Every tool turned as the measured orientations have it on average, given the base.
 void turn_tools(CorrectedRobot& robot, const DataSet& data, const std::vector<Observation>& observations) {

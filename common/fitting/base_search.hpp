@@ -15,6 +15,9 @@
 
 namespace demecal::inline fitting {
 
+/// Farther from where it is described than this another tool was measured; nearer, the described one has an error.
+inline constexpr double kOtherTool_m = 0.01;
+
 /// `start` with base and tools, where declared, placed by least squares over at most options.start_poses poses spread
 /// over `poses`: near enough for every parameter to be refined together. Every start is refined a little and the best
 /// one to the end. Starts are: the start's own base; the closed-form registration of its predicted points to the

@@ -74,7 +74,7 @@ void KrlStatements::read_destination(std::size_t motion, std::size_t begin, std:
   const bool whole = after >= stop || (text_.begins_word(after) && after > name_end);
   const std::string name = text_.word_at(begin);
   if (whole && names_.contains(name)) return;
-  if (last) program_.unknown_motions.push_back(motion);
+  if (last) program_.joints_lost_at.push_back(motion);
   // Robots are sent to where they stand, so that they have met their path.
   if (whole && (name == "$axis_act" || name == "$pos_act")) return;
   const TextPlace place = text_.place(begin);
@@ -92,7 +92,7 @@ void KrlStatements::read_destination(std::size_t motion, std::size_t begin, std:
 
 /// What a motion goes by, added to what motions before it went by since the last that goes to a place.
 void KrlStatements::read_relative(std::size_t motion, std::size_t begin, std::size_t line_end) {
-  program_.unknown_motions.push_back(motion);
+  program_.joints_lost_at.push_back(motion);
   double square_mm2 = begin < line_end && code_[begin] == '{' ? 0.0 : std::nan("");
   const BracketItem list = square_mm2 == 0.0 ? read_list(text_, begin, '{') : BracketItem{};
   for (const BracketItem& item : list.items) {

@@ -238,7 +238,9 @@ void RapidFrames::complete(Target& target) const {
   for (const Held& held : held_) {
     if (begin >= held.begin && begin < held.end) return take_uses({held.use}, target);
   }
-  if (!held_.empty()) target.frames.unknown_tool = "no motion names it";
+  if (held_.empty()) return;
+  // Its tool and its work object are those of the motion that somewhere goes to it.
+  target.frames.unknown_tool = target.frames.unknown_frame = "no motion names it";
 }
 
 }  // namespace demecal::inline kuka_abb_ur

@@ -217,10 +217,21 @@ void RapidStatements::read_name(std::size_t begin, std::size_t end) {
     changes_.used(name, begin);
     return goes_elsewhere(range);
   }
+  if (may_move_to(begin, after == name_end)) program_.joints_lost_at.push_back(begin);
   const std::size_t equals = code_.substr(0, begin).rfind(":="), statement = code_.substr(0, begin).rfind(';');
   const bool copied = equals != std::string_view::npos && (statement == std::string_view::npos || equals > statement);
   const std::size_t stop = std::min(code_.find(';', begin), code_.size());
   if (!copied || !is_plain(equals + 2, stop, begin, name_end)) changes_.used(name, begin);
+}
+
+/// Whether the name at `begin` (`whole`: not a part of it) is handed to an instruction that is none of those known,
+/// such as SearchL, ArcL or a procedure of another file: the arm is then anywhere near it.
+bool RapidStatements::may_move_to(std::size_t begin, bool whole) const {
+  const std::size_t before = code_.substr(0, begin).rfind(';');
+  const std::string_view statement = code_.substr(before + 1, begin - before - 1);  // npos + 1: the text's begin
+  const auto opened = std::ranges::count(statement, '(') - std::ranges::count(statement, ')');
+  const std::string word = text_.word_at(text_.skip_spaces(before + 1));
+  return whole && opened == 0 && statement.find(":=") == std::string_view::npos && word != "return" && !is_simple(word);
 }
 
 bool RapidStatements::is_plain(std::size_t begin, std::size_t end, std::size_t name_begin, std::size_t name_end) {

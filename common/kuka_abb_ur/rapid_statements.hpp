@@ -51,6 +51,7 @@ class RapidStatements {
   /// Says that a motion goes to none of the targets.
   void goes_elsewhere(const TextRange& range);
   bool holds_target(const TextRange& range) const;
+  bool may_move_to(std::size_t begin, bool whole) const;
   /// Where the name's indices and components end.
   std::size_t after_parts(std::size_t end) const;
   /// Whether [begin, end) is the name alone, or Offs or RelTool of it; such an offset is judged.

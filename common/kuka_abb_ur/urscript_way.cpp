@@ -161,7 +161,7 @@ StatedFrames UrScriptWay::held(std::size_t begin, bool by_pose) {
 }
 
 void UrScriptWay::note_routines(Program& program) const {
-  program.unknown_motions.insert(program.unknown_motions.end(), untold_.begin(), untold_.end());
+  program.joints_lost_at.insert(program.joints_lost_at.end(), untold_.begin(), untold_.end());
   flow_.note_arrivals(program);
   if (!believed_.empty())
     note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program, "put what they do into this file");

@@ -40,6 +40,7 @@ class FanucReader {
 
   Program read() {
     const std::size_t instructions = fanuc_section(text_, "/mn"), positions = fanuc_section(text_, "/pos");
+    moves_arm_ = moves_first_group(text_, instructions);
     if (instructions < positions) motions_.read(text_, instructions, positions, changes_);
     for (const auto& [begin, goal] : motions_.to_others())
       skip_target(program_, {.name = "", .place = text_.place(begin)},
@@ -88,7 +89,7 @@ class FanucReader {
       const std::string name = "P[" + std::to_string(number) + ']';
       if (corrected.contains(name)) continue;
       for (const TargetUse& use : uses) {
-        program_.unknown_motions.push_back(use.begin);
+        program_.joints_lost_at.push_back(use.begin);
         if (!given_.contains(number))
           skip_target(program_, {.name = name, .place = text_.place(use.begin)}, "it is not given in this file");
       }
@@ -115,6 +116,8 @@ class FanucReader {
   void make_target(int number, const FanucParts& components, Target target) {
     const std::string why = motions_.not_sent_to(number);
     if (!why.empty()) return skip_target(program_, target, why);
+    if (!moves_arm_)
+      return skip_target(program_, target, "the program does not move the first group of motion (DEFAULT_GROUP)");
     set_frames(components, target);
     const auto joints = items(components, kJointNames), parts = items(components, kPoseNames);
     const bool of_joints = joints.size() == kJointNames.size() && parts.empty();
@@ -215,6 +218,7 @@ class FanucReader {
   Program program_;
   FanucMotions motions_;
   ChangedNames changes_{text_};
+  bool moves_arm_ = true;
   std::set<int> given_;  ///< the numbers of all positions of the file
 };
 

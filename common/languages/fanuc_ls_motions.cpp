@@ -27,11 +27,27 @@ std::size_t after_line_number(std::string_view code, std::size_t begin) {
   return begin;
 }
 
+/// Whether a motion begins there: "L P[3] ...", "J PR[1] ...".
+bool is_motion_at(std::string_view code, std::size_t begin) {
+  constexpr std::string_view kKinds = "jJlLcCaA";
+  if (begin + 1 >= code.size() || is_word_letter(code[begin + 1])) return false;
+  return kKinds.find(code[begin]) != std::string_view::npos;
+}
+
 /// "7" of "[7:up]" that opens at or after `begin`; empty where it is no number.
 std::string bracketed_number(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::size_t open = text.code().find('[', begin);
   const int number = open < end ? position_number(text, open) : -1;
   return number < 0 ? "" : std::to_string(number);
+}
+
+/// The bracket that closes the one at `open`; `end` where none does.
+std::size_t closing_bracket(std::string_view code, std::size_t open, std::size_t end) {
+  for (int depth = 0; open < end; ++open) {
+    depth += code[open] == '[' ? 1 : code[open] == ']' ? -1 : 0;
+    if (depth == 0) break;
+  }
+  return open;
 }
 
 /// Whether the first group of motion may be meant by "1", "GP1" or anything that is computed.
@@ -62,11 +78,7 @@ void find_changes(const ProgramText& text, std::size_t begin, std::size_t end, C
     if (word != "p" && word != "uframe" && word != "utool" && !of_group) continue;
     const std::size_t open = text.skip_spaces(text.word_end(at));
     if (open >= end || code[open] != '[') continue;
-    std::size_t close = open;
-    for (int depth = 0; close < end; ++close) {
-      depth += code[close] == '[' ? 1 : code[close] == ']' ? -1 : 0;
-      if (depth == 0) break;
-    }
+    const std::size_t close = closing_bracket(code, open, end);
     const std::size_t sign = close < end ? text.skip_spaces(close + 1) : end;
     if (sign >= end || code[sign] != '=') continue;
     const auto number = changed_number(code.substr(open + 1, close - open - 1), of_group);
@@ -98,6 +110,16 @@ bool tracks_a_line(const ProgramText& text) {
     tracks = tracks || (number != '0' && number != ';');
   });
   return tracks;
+}
+
+bool moves_first_group(const ProgramText& text, std::size_t instructions) {
+  bool moves = true;
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    const std::size_t sign = text.skip_spaces(end);
+    if (begin >= instructions || text.word_at(begin) != "default_group" || sign >= instructions) return;
+    if (text.code()[sign] == '=' && text.next(sign + 1) == '*') moves = false;
+  });
+  return moves;
 }
 
 int position_number(const ProgramText& text, std::size_t open) {
@@ -143,13 +165,19 @@ void FanucMotions::read_way(const ProgramText& text, std::size_t begin, std::siz
   read_action(text, std::min(text.skip_spaces(action), end), end, conditional);
 }
 
-/// JMP LBL[n], be it behind a condition, and what else goes to labels: Skip,LBL[n] and TIMEOUT,LBL[n].
+/// JMP LBL[n], be it behind a condition, and what else goes to labels: TIMEOUT,LBL[n] and, of motions, Skip,LBL[n].
+/// That is gone to from where the motion ends; where the skip condition stops it on the way, the next instruction
+/// follows.
 void FanucMotions::read_jumps(const ProgramText& text, std::size_t begin, std::size_t end) {
   const bool always = text.begins_word(begin) && text.word_at(begin) == "jmp";
+  const bool may_stop = is_motion_at(text.code().substr(0, end), begin);
   for (std::size_t at = begin; at < end; ++at) {
     if (!text.begins_word(at)) continue;
     const std::size_t word_end = std::min(text.word_end(at), end);
-    if (at > begin && text.word_at(at) == "lbl") way_.jump(begin, bracketed_number(text, word_end, end), always);
+    if (at > begin && text.word_at(at) == "lbl") {
+      way_.jump(may_stop ? at : begin, bracketed_number(text, word_end, end), always);
+      if (may_stop) elsewhere_.push_back(at);
+    }
     at = word_end - 1;
   }
 }
@@ -181,7 +209,7 @@ void FanucMotions::read_action(const ProgramText& text, std::size_t begin, std::
 }
 
 void FanucMotions::note_way(const ProgramText& text, Program& program) const {
-  program.unknown_motions.insert(program.unknown_motions.end(), elsewhere_.begin(), elsewhere_.end());
+  program.joints_lost_at.insert(program.joints_lost_at.end(), elsewhere_.begin(), elsewhere_.end());
   way_.note_arrivals(text, program);
 }
 
@@ -211,11 +239,8 @@ std::string FanucMotions::stopped_by(const ProgramText& text, int number, const 
 void FanucMotions::read_statement(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::string_view code = text.code().substr(0, end);
   begin = after_line_number(code, begin);
-  constexpr std::string_view kLines = "lca";
-  const std::string kind = lower_case(code.substr(begin, std::min<std::size_t>(1, end - begin)));
-  const bool line = !kind.empty() && kLines.find(kind) != std::string_view::npos;
-  if (!line && kind != "j") return;
-  if (begin + 1 >= end || is_word_letter(code[begin + 1])) return;
+  if (!is_motion_at(code, begin)) return;
+  const bool line = code[begin] != 'j' && code[begin] != 'J';
   std::vector<int> numbers;
   std::string why = shifted_ ? kTouch : "";
   bool of_register = false, wrist_by_joints = false;
@@ -226,7 +251,11 @@ void FanucMotions::read_statement(const ProgramText& text, std::size_t begin, st
     const bool indexed = text.next(word_end) == '[' && text.skip_spaces(word_end) < end;
     if (word == "p" && indexed) numbers.push_back(position_number(text, text.skip_spaces(word_end)));
     if (word == "inc") why = kIncrement;
-    of_register = of_register || (indexed && (word == "pr" || word == "vr"));
+    if (word == "search" && indexed) elsewhere_.push_back(at);  // Search[-Z] stops where it touches
+    if (indexed && (word == "pr" || word == "vr")) {
+      const std::size_t close = closing_bracket(code, text.skip_spaces(word_end), end);
+      of_register = of_register || text.next(std::min(close + 1, end)) != '=';  // Skip,LBL[1],PR[2]=LPOS fills it
+    }
     wrist_by_joints = wrist_by_joints || word == "wjnt";
     if (why.empty() && (of_register || word.ends_with("offset"))) why = kOffset;
     at = word_end - 1;

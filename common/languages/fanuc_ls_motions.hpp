@@ -21,6 +21,9 @@ std::size_t fanuc_section(const ProgramText& text, std::string_view heading);
 /// Whether the program tracks a line: by its header, LINE[..] or SETTRIG.
 bool tracks_a_line(const ProgramText& text);
 
+/// Whether the program moves the first group of motion: by its header, DEFAULT_GROUP, or where that is not there.
+bool moves_first_group(const ProgramText& text, std::size_t instructions);
+
 class FanucMotions {
  public:
   /// Takes instructions, [begin, end) of the code: what stands between /MN and /POS. Those that give positions a value
@@ -30,8 +33,9 @@ class FanucMotions {
   /// Motions that name no position, and to what they go; empty: to a register.
   const std::map<std::size_t, std::string>& to_others() const { return others_; }
 
-  /// Tells `program`, whose targets are known, where motions go elsewhere than to a position alone, and where else it
-  /// is not known where the arm comes from; and says which programs that are called between motions are not here.
+  /// Tells `program`, whose targets are known, where motions go elsewhere than to a position alone or may stop on the
+  /// way, and where else it is not known where the arm comes from; and says which programs that are called between
+  /// motions are not here.
   void note_way(const ProgramText& text, Program& program) const;
 
   /// The motions to each position.
@@ -56,7 +60,7 @@ class FanucMotions {
 
   std::map<int, std::vector<TargetUse>> uses_;
   std::map<std::size_t, std::string> others_;
-  std::vector<std::size_t> elsewhere_;
+  std::vector<std::size_t> elsewhere_;  ///< where motions go to none of the positions alone, or may stop before it
   std::map<int, std::string> not_sent_to_;
   LabelledWay way_{"UTOOL_NUM", "UFRAME_NUM"};  ///< the numbers, as why frames are unknown
   bool shifted_ = false;                        ///< by Touch Offset

@@ -26,7 +26,7 @@ void LabelledWay::motion(std::size_t at) {
 
 void LabelledWay::note_arrivals(const ProgramText& text, Program& program) const {
   flow_.note_arrivals(program);
-  if (jumps_anywhere_) program.unknown_motions.insert(program.unknown_motions.end(), labels_.begin(), labels_.end());
+  if (jumps_anywhere_) program.joints_lost_at.insert(program.joints_lost_at.end(), labels_.begin(), labels_.end());
   std::set<std::size_t> between = flow_.calls_elsewhere();
   std::erase_if(between,
                 [&](std::size_t call) { return !first_motion_ || call < *first_motion_ || call > *last_motion_; });

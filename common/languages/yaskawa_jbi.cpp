@@ -198,6 +198,8 @@ class JobReader {
       if (!text_.begins_word(at)) continue;
       const std::size_t word_end = std::min(text_.word_end(at), end);
       const std::string key = position_name(code_.substr(at, word_end - at));
+      // UNTIL IN#(1)=ON may stop it before it is there.
+      if (motion && text_.word_at(at) == "until") program_.joints_lost_at.push_back(at);
       at = word_end - 1;
       if (key.empty()) continue;
       named = true;
@@ -213,7 +215,7 @@ class JobReader {
       }
     }
     if (!motion && word != "refp" && names_computed_position(text_, begin, end)) changes_any_ = word;
-    if (relative || coordinated || (motion && shifts_)) program_.unknown_motions.push_back(begin);
+    if (relative || coordinated || (motion && shifts_)) program_.joints_lost_at.push_back(begin);
     if (motion && !named) note_computed(std::min(text_.skip_spaces(text_.word_end(begin)), end), end);
   }
 
@@ -242,7 +244,7 @@ class JobReader {
         position.why = "no motion of this job goes to it";
       if (!position.why.empty()) {
         skip_target(program_, target, position.why);
-        for (const TargetUse& use : uses.motions) program_.unknown_motions.push_back(use.begin);
+        for (const TargetUse& use : uses.motions) program_.joints_lost_at.push_back(use.begin);
         continue;
       }
       if (base_axes_ && target.is_pose() && target.frames.frame.empty())

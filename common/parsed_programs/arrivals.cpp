@@ -28,7 +28,7 @@ void join(const Origins& other, Origins& origins) {
 class ArrivalSearch {
  public:
   explicit ArrivalSearch(const Program& program)
-      : program_(program), unknown_(program.unknown_motions.begin(), program.unknown_motions.end()) {
+      : program_(program), unknown_(program.joints_lost_at.begin(), program.joints_lost_at.end()) {
     for (const Target& target : program.targets) {
       motions_.insert(target.order);
       motions_.insert(target.further_motions.begin(), target.further_motions.end());

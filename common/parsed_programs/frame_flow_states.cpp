@@ -142,7 +142,7 @@ void FrameFlow::note_arrivals(Program& program) const {
     motions.insert(target.further_motions.begin(), target.further_motions.end());
     for (const auto& [begin, place] : target.near_motions) motions.insert(begin);
   }
-  motions.insert(program.unknown_motions.begin(), program.unknown_motions.end());
+  motions.insert(program.joints_lost_at.begin(), program.joints_lost_at.end());
   for (const Node& node : nodes_) program.way.push_back({node.at, node.next});
   std::set<std::size_t> moving;  // routines
   for (const std::size_t motion : motions) {
@@ -154,7 +154,7 @@ void FrameFlow::note_arrivals(Program& program) const {
   };
   for (const Node& node : nodes_) {
     if (std::ranges::any_of(routines_named(node.callee, node.routine), moves))
-      program.unknown_motions.push_back(node.at);
+      program.joints_lost_at.push_back(node.at);
   }
 }
 

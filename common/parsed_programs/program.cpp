@@ -130,15 +130,15 @@ void skip_target(Program& program, const Target& target, const std::string& why)
 }
 
 void note_unknown_motion(Program& program, std::size_t begin, const Target& target, const std::string& why) {
-  program.unknown_motions.push_back(begin);
+  program.joints_lost_at.push_back(begin);
   skip_target(program, target, why);
 }
 
 void end_at_motions_to(const Target& target, Program& program) {
-  program.unknown_motions.push_back(target.order);
-  program.unknown_motions.insert(program.unknown_motions.end(), target.further_motions.begin(),
-                                 target.further_motions.end());
-  for (const auto& [begin, place] : target.near_motions) program.unknown_motions.push_back(begin);
+  program.joints_lost_at.push_back(target.order);
+  program.joints_lost_at.insert(program.joints_lost_at.end(), target.further_motions.begin(),
+                                target.further_motions.end());
+  for (const auto& [begin, place] : target.near_motions) program.joints_lost_at.push_back(begin);
 }
 
 void note_offset(Program& program, const TextPlace& place, const std::string& name, std::optional<double> distance_mm) {

@@ -12,6 +12,7 @@
 
 #include "effects/effect.hpp"
 #include "errors/check.hpp"
+#include "fitting/base_search.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
@@ -24,8 +25,7 @@ bool is_of_instrument(const Effect& effect) {
   return law_of(effect).subject() == Subject::instrument;
 }
 
-constexpr double kLargestToolError = 0.01;  ///< m
-constexpr double kLargestToolTurn = 0.05;   ///< rad
+constexpr double kLargestToolTurn = 0.05;  ///< rad
 
 bool is_of_tool(const Effect& effect) {
   return law_of(effect).subject() == Subject::tool;
@@ -66,7 +66,7 @@ void check_tool(CommandModel& model) {
   if (!model.robot.tools.contains("")) return take_tool(model, described_m);
   Eigen::Isometry3d& tool = model.robot.tools.at("");
   const double error_m = (tool.translation() - described_m).norm();
-  if (error_m > kLargestToolError) {
+  if (error_m > kOtherTool_m) {
     model.notes.push_back("the model has its tool point " + std::to_string(std::lround(millimetres(error_m))) +
                           " mm from where the robot's description has it, as if another tool was measured; nothing of "
                           "the tool is corrected, and the described one is taken (--tool-mm names another)");

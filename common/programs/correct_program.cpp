@@ -9,6 +9,7 @@
 #include <iterator>
 #include <memory>
 #include <numeric>
+#include <set>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -45,8 +46,8 @@ std::string moved_text(const CorrectedTarget& corrected) {
 
 class Corrector {
  public:
-  Corrector(const CommandModel& model, const Circumstances& circumstances)
-      : model_(model), circumstances_(circumstances) {}
+  Corrector(const CommandModel& model, const Circumstances& circumstances, std::set<std::string> untold_tools)
+      : model_(model), circumstances_(circumstances), untold_tools_(std::move(untold_tools)) {}
 
   /// `visits`: all to this target, the first first; `line_at`: the line of a visit's byte.
   CorrectedTarget correct(const Target& target, const std::vector<TargetVisit>& visits,
@@ -112,7 +113,15 @@ class Corrector {
   CorrectedTarget refused(const Target& target) const {
     const bool frame = target.is_pose() && !target.frames.unknown_frame.empty();
     return left(unknown_frames(target, circumstances_) + "; this line was not corrected" +
-                (frame || target.frames.several_tools ? "" : "; --tool-mm states the tool"));
+                (frame || target.frames.several_tools ? "" : remedy_of_tools()));
+  }
+
+  std::string remedy_of_tools() const {
+    if (untold_tools_.size() < 2) return "; --tool-mm states the tool";
+    std::string names;
+    for (const std::string& name : untold_tools_) names += (names.empty() ? "" : ", ") + name;
+    return "; --tool-mm states one tool, and the program has " + std::to_string(untold_tools_.size()) +
+           " that are not known (" + names + "): --frames states each";
   }
 
   /// The model with the tool that the target states: one that the user names beside it is none of the target's.
@@ -185,6 +194,7 @@ class Corrector {
 
   const CommandModel& model_;
   Circumstances circumstances_;
+  std::set<std::string> untold_tools_;
   std::vector<std::pair<Eigen::Vector3d, std::unique_ptr<CommandModel>>> with_tools_;
 };
 
@@ -207,7 +217,10 @@ void note_unknown_side(const Target& target, const CorrectedTarget& corrected, U
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
                                  const Circumstances& circumstances) {
   CorrectedProgram result{std::move(program), {}, {}, {}};
-  Corrector corrector(model, circumstances);
+  const std::set<std::string> tools = untold_tools(result.program);
+  Circumstances with_tool = circumstances;
+  with_tool.tool_given = circumstances.tool_given && tools.size() < 2;
+  Corrector corrector(model, with_tool, tools);
   for (std::string& sentence : warnings_of(result.program, model, circumstances)) {
     result.warnings.push_back({kWholeProgram, "", std::move(sentence)});
   }
@@ -215,7 +228,7 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
     result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
   std::vector<std::vector<TargetVisit>> visits(result.program.targets.size());
-  for (TargetVisit& visit : followed_motions(result.program, model, circumstances))
+  for (TargetVisit& visit : followed_motions(result.program, model, with_tool))
     visits[visit.target].push_back(std::move(visit));
   UnknownSides unknown, differing;
   const auto line = [&](std::size_t offset) { return line_at(text, result.program, offset); };

@@ -148,7 +148,7 @@ class ArmFollower {
   /// Goes on from `arm` by the motion, to all its targets, or to one of them that is not told; `first` of the paths
   /// that lead here.
   ArmKnowledge moved(std::size_t motion, ArmKnowledge arm, bool first) {
-    const bool to_one = std::ranges::find(program_.unknown_motions, motion) != program_.unknown_motions.end();
+    const bool to_one = std::ranges::find(program_.joints_lost_at, motion) != program_.joints_lost_at.end();
     const ArmKnowledge origin = arm;
     for (std::size_t i = begins_.at(motion); i < visits_.size() && visits_[i].order == motion; ++i) {
       if (to_one) arm = origin;
@@ -237,6 +237,17 @@ class ArmFollower {
 std::string unknown_frames(const Target& target, const Circumstances& circumstances) {
   if (target.is_pose() && !target.frames.unknown_frame.empty()) return target.frames.unknown_frame;
   return circumstances.tool_given && !target.frames.several_tools ? "" : target.frames.unknown_tool;
+}
+
+std::set<std::string> untold_tools(const Program& program) {
+  std::set<std::string> names;
+  for (const Target& target : program.targets) {
+    const StatedFrames& frames = target.frames;
+    if (target.not_sent_to.empty() && !frames.unknown_tool.empty() && !frames.tool_name.empty() &&
+        !frames.several_tools)
+      names.insert(frames.tool_name);
+  }
+  return names;
 }
 
 std::vector<TargetVisit> followed_motions(const Program& program, const CommandModel& model,

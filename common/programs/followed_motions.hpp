@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,10 @@ struct TargetVisit {
 /// What of the target's frames is not known; empty: they are known. A user's tool stands for one that the program does
 /// not tell.
 std::string unknown_frames(const Target& target, const Circumstances& circumstances);
+
+/// The names of the tools that targets of the program have and it does not tell; not of targets with several. A user's
+/// tool cannot stand for more than one of them.
+std::set<std::string> untold_tools(const Program& program);
 
 /// The motions to targets, in the order of the text. A joint comes from the side of its last change of 2 mrad (2 mm) or
 /// more. What is known of the arm ends where arrivals() tells so, and at targets whose joints are not known.

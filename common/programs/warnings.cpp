@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,6 +20,7 @@
 #include "parsed_programs/program.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "programs/command_model.hpp"
+#include "programs/followed_motions.hpp"
 #include "programs/nominal_joints.hpp"
 #include "programs/target_correction.hpp"
 
@@ -95,24 +95,15 @@ void check_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std
   const auto another = [&](const Target& target) {
     return target.frames.tool && (target.frames.tool->translation() - tool_m).norm() > kAnother;
   };
-  std::set<std::string> names;
-  for (const Target& target : program.targets) {
-    if (!target.frames.unknown_tool.empty() && !target.frames.several_tools) names.insert(target.frames.tool_name);
-  }
   if (std::any_of(program.targets.begin(), program.targets.end(), another)) {
     sentences.emplace_back(
         "the program states a tool that is not the one given with --tool-mm; where it states one, that one is "
         "corrected");
   }
-  if (names.empty()) return;
-  std::string which = "one";
-  if (names.size() > 1) {
-    which = std::to_string(names.size()) + " different ones, ";
-    for (const std::string& name : names) which += (name == *names.begin() ? "" : ", ") + name;
-    which += ",";
-  }
-  sentences.push_back("the tool given with --tool-mm stands in for " + which +
-                      " that the file does not give; its axes are taken to be those of the flange");
+  if (untold_tools(program).size() != 1) return;
+  sentences.emplace_back(
+      "the tool given with --tool-mm stands in for one that the file does not give; its axes are taken to be those of "
+      "the flange");
 }
 
 /// "compliance of joint 2", or how many effects there are.

@@ -10,7 +10,9 @@
 
 #include "calibration/calibration.hpp"
 #include "calibration/selection.hpp"
+#include "data/spread_poses.hpp"
 #include "decompositions/decompositions.hpp"
+#include "expression/rounded_constant.hpp"
 #include "expression/tree.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -56,13 +58,6 @@ std::vector<Shape> shapes() {
   return all;
 }
 
-/// A number with so many significant digits.
-double to_significant_digits(double value, int digits) {
-  if (value == 0.0) return value;
-  const double power = std::pow(10.0, digits - 1 - std::floor(std::log10(std::abs(value))));
-  return std::round(value * power) / power;
-}
-
 /// An angle in degrees as finely as a size with so many digits asks for.
 double degrees_with_digits(double angle_rad, int digits) {
   const double steps = std::pow(10.0, digits - 2);
@@ -91,7 +86,7 @@ struct Sum {
   std::string angle;  ///< what the text calls the joint's angle
 
   void add_wave(int cycles, double cosine, double sine, int digits) {
-    const double size_mrad = to_significant_digits(1e3 * std::hypot(cosine, sine), digits);
+    const double size_mrad = rounded_constant(1e3 * std::hypot(cosine, sine), digits);
     double phase_deg = degrees_with_digits(std::atan2(cosine, sine), digits);
     const double sign = std::abs(phase_deg) > 90.0 ? -1.0 : 1.0;
     if (sign < 0) phase_deg -= std::copysign(180.0, phase_deg);
@@ -106,14 +101,14 @@ struct Sum {
   /// `slope` is in mrad per rad, zero at `zero_rad`.
   void add_slope(double slope, double zero_rad, int digits) {
     const double zero_deg = degrees_with_digits(zero_rad, digits),
-                 rounded_slope = to_significant_digits(1e3 * slope, digits);
+                 rounded_slope = rounded_constant(1e3 * slope, digits);
     formula = sum_with(formula, apply(Primitive::multiply, constant_tree(1e-3 * rounded_slope),
                                       apply(Primitive::subtract, variable_tree(0), constant_tree(radians(zero_deg)))));
     const std::string from_zero = zero_deg == 0.0 ? angle : "(" + shifted_name(angle, -zero_deg) + ")";
     text = plus(text, rounded_slope, fmt::format("{} mrad/rad {}", std::abs(rounded_slope), from_zero));
   }
   void add_offset(double offset_rad, int digits) {
-    const double offset_mrad = to_significant_digits(1e3 * offset_rad, digits);
+    const double offset_mrad = rounded_constant(1e3 * offset_rad, digits);
     formula = sum_with(formula, constant_tree(1e-3 * offset_mrad));
     text = plus(text, offset_mrad, fmt::format("{} mrad", std::abs(offset_mrad)));
   }
@@ -148,18 +143,13 @@ Sum rounded_sum(const Shape& shape, const Eigen::VectorXd& coefficients, const s
   return sum;
 }
 
-/// The poses that tell, evenly out of many.
-std::vector<std::size_t> judging_sample(const DataSet& data, const CorrectedRobot& robot) {
-  std::vector<std::size_t> all = selection_poses(data, robot), some;
-  const std::size_t count = std::min(all.size(), kMostJudgingPoses);
-  for (std::size_t i = 0; i < count; ++i) some.push_back(all[i * all.size() / count]);
-  return some;
-}
-
 class Shortening {
  public:
   Shortening(const DataSet& data, const CorrectedRobot& robot)
-      : data_(data), robot_(robot), judging_(data, judging_sample(data, robot), robot), square_(left(robot)) {}
+      : data_(data),
+        robot_(robot),
+        judging_(data, spread_poses(selection_poses(data, robot), kMostJudgingPoses), robot),
+        square_(left(robot)) {}
 
   std::vector<std::optional<ShortForm>> run();
 

@@ -182,7 +182,7 @@ class AsReader {
               "), and where it holds is not followed";
       if (!why.empty()) {
         skip_target(program_, target, why);
-        for (const TargetUse& use : statements_.uses(name)) program_.unknown_motions.push_back(use.begin);
+        for (const TargetUse& use : statements_.uses(name)) program_.joints_lost_at.push_back(use.begin);
         continue;
       }
       const bool pose = target.is_pose();

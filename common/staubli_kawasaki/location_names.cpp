@@ -61,7 +61,7 @@ void note_untold_locations(const ProgramText& text, const std::map<std::string, 
     const bool is_given = given.contains(known ? name : array_of(name));
     const std::string reason = is_given ? "" : why(name);
     for (const TargetUse& use : motions) {
-      if (is_given && !known) program.unknown_motions.push_back(use.begin);
+      if (is_given && !known) program.joints_lost_at.push_back(use.begin);
       if (is_given) continue;
       note_unknown_motion(program, use.begin, {.name = name, .place = text.place(use.begin)},
                           reason.empty() ? "it is not given as numbers in this program" : reason);

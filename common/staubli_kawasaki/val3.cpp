@@ -65,7 +65,7 @@ class Val3Reader {
       if (cells && !why.empty()) skip_target(program_, target, why);
       if (!cells || !why.empty()) {
         for (const Val3Motion& motion : statements_.motions(value.name))
-          program_.unknown_motions.push_back(motion.begin);
+          program_.joints_lost_at.push_back(motion.begin);
         continue;
       }
       of_joints ? static_cast<void>(target.joints = *cells) : take_point(value, *cells, target);
@@ -145,7 +145,7 @@ class Val3Reader {
         if (!is_given)
           note_unknown_motion(program_, motion.begin, {.name = name, .place = text_.place(motion.begin)},
                               "it is not given in this program");
-        if (is_given && !one) program_.unknown_motions.push_back(motion.begin);
+        if (is_given && !one) program_.joints_lost_at.push_back(motion.begin);
       }
     }
   }

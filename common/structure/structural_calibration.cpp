@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "data/spread_poses.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/parameter_space.hpp"
@@ -28,13 +29,6 @@ struct Structure {
 bool is_fitter(const Structure& a, const Structure& b) {
   if (a.selection_cost != b.selection_cost) return a.selection_cost < b.selection_cost;
   return a.genes < b.genes;
-}
-
-std::vector<std::size_t> evenly_chosen(const std::vector<std::size_t>& poses, std::size_t most) {
-  if (poses.size() <= most) return poses;
-  std::vector<std::size_t> chosen;
-  for (std::size_t i = 0; i < most; ++i) chosen.push_back(poses[i * poses.size() / most]);
-  return chosen;
 }
 
 /// Structures that were fitted before are not fitted again.
@@ -180,8 +174,8 @@ std::vector<ParameterEstimate> structure_estimates(const std::vector<ParameterId
 StructureFound search_structure(const StructureProblem& problem, const StructureOptions& options, RandomStream& random,
                                 const StructureWatch& watch) {
   StructureProblem searched = problem;
-  searched.fitted = evenly_chosen(problem.fitted, options.most_poses);
-  searched.selection_poses = evenly_chosen(problem.selection_poses, options.most_poses);
+  searched.fitted = spread_poses(problem.fitted, options.most_poses);
+  searched.selection_poses = spread_poses(problem.selection_poses, options.most_poses);
   StructureEvaluator evaluate(searched);
   const double without_genes = evaluate(Genome(problem.start.chain.joints.size()));
   StructurePopulation population(problem.start.chain.size(), options, evaluate, random);

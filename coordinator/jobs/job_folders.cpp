@@ -32,8 +32,12 @@ constexpr std::array<const char*, 12> kOffered{
     "report.html",     "report.json", "model.yaml", "model-best.yaml", "certificate.html", "certificate.pdf",
     "certificate.xml", "history.csv", "fronts.csv", "distal.csv",      "pose-errors.csv",  "events.jsonl"};
 
+[[noreturn]] void fail_with(int error, const std::string& what) {
+  throw std::system_error(error, std::generic_category(), what);
+}
+
 [[noreturn]] void fail_with_errno(const std::string& what) {
-  throw std::system_error(errno, std::generic_category(), what);
+  fail_with(errno, what);
 }
 
 OwnedDescriptor open_below(int folder, const std::string& name, int flags) {
@@ -77,13 +81,14 @@ std::vector<ListedFile> files_in(const OwnedDescriptor& folder) {
   return files;
 }
 
-/// Bytes of the file from `begin` on.
+/// Bytes of the file from `begin` on; fewer where it has become shorter.
 std::string read_bytes(int descriptor, std::uint64_t begin, std::uint64_t count) {
   std::string bytes(count, '\0');
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t got = ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(begin + done));
-    if (got <= 0) break;
+    if (got < 0) fail_with_errno("a file cannot be read");
+    if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }
   bytes.resize(done);
@@ -96,7 +101,7 @@ void write_whole(int folder, const std::string& name, std::string_view bytes) {
   if (file.get() < 0) fail_with_errno("a file cannot be written");
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t put = ::write(file.get(), bytes.data() + done, bytes.size() - done);
-    if (put <= 0) fail_with_errno("a file cannot be written");
+    if (put <= 0) fail_with(put < 0 ? errno : EIO, "a file cannot be written");
     done += static_cast<std::size_t>(put);
   }
   if (::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fail_with_errno("a file cannot be written");
@@ -169,7 +174,7 @@ std::string JobFolders::input(const JobId& id, const std::string& name) const {
   const OwnedDescriptor inputs = open_below(folder(id).get(), kInput, kFolder);
   const OwnedDescriptor file = open_below(inputs.get(), name, kToRead);
   const auto size = regular_file_size(file.get());
-  if (!size) fail_with_errno("an uploaded file cannot be read");
+  if (!size) fail_with(file.get() < 0 ? errno : EINVAL, "an uploaded file cannot be read");
   return read_bytes(file.get(), 0, *size);
 }
 

@@ -6,12 +6,14 @@
 #include <stdlib.h>
 #include <sys/stat.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "errors/input_error.hpp"
+#include "failing_files.hpp"
 
 namespace demecal {
 namespace {
@@ -121,6 +123,30 @@ TEST_F(JobFolder, WaitsForNoPipe) {
   ASSERT_EQ(::mkfifo((job() / "job.json").c_str(), 0600), 0);
   EXPECT_TRUE(folders.inputs(kJob).empty());
   EXPECT_EQ(folders.record(kJob).state, JobState::ready);
+}
+
+/// The error of what is tried; 0 where there is none.
+template <typename Try>
+int error_of(const Try& try_it) {
+  errno = 0;  // as it is where the last call of the system went well
+  try {
+    try_it();
+  } catch (const std::system_error& error) {
+    return error.code().value() == 0 ? -1 : error.code().value();
+  }
+  return 0;
+}
+
+TEST_F(JobFolder, SaysWhyAFileCannotBeReadOrWritten) {
+  const JobFolders folders(jobs());
+  folders.make(kJob);
+  ASSERT_EQ(::mkfifo((job() / "input/pipe.csv").c_str(), 0600), 0);
+  EXPECT_EQ(error_of([&] { folders.input(kJob, "pipe.csv"); }), EINVAL);
+  EXPECT_EQ(error_of([&] { folders.input(kJob, "missing.csv"); }), ENOENT);
+  EXPECT_EQ(error_of([&] { folders.put_input(kJob, "a.csv", "1,2"); }), 0);
+  const FailingFiles failing;
+  EXPECT_EQ(error_of([&] { folders.input(kJob, "a.csv"); }), EIO);
+  EXPECT_EQ(error_of([&] { folders.put_input(kJob, "b.csv", "1,2"); }), EIO);
 }
 
 TEST_F(JobFolder, MustBeAFolder) {

@@ -4,8 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "kinematics/forward.hpp"
 #include "mistaken_case.hpp"
 #include "parameters/declared_model.hpp"
@@ -140,17 +138,6 @@ TEST(TrialFit, KeepsLinksNearTheirDescriptionWhereNothingFits) {
   const TrialFit fit = fit_arm(trial, fit_base_and_tools(trial));
   EXPECT_GT(fit.median_m, 0.02);
   EXPECT_LT(largest_change(fit, trial), 20.0);
-}
-
-TEST(TrialFit, SpreadsIndicesOverAllAndOverThoseThatRecur) {
-  const std::vector<std::size_t> chosen = spread_indices(300, 100);
-  EXPECT_NEAR(static_cast<double>(chosen.size()), 100.0, 2.0);
-  EXPECT_LT(chosen.front(), 6u);
-  EXPECT_GT(chosen.back(), 293u);
-  std::set<std::size_t> remainders;
-  for (const std::size_t i : chosen) remainders.insert(i % 3);
-  EXPECT_EQ(remainders.size(), 3u);
-  EXPECT_EQ(spread_indices(5, 100).size(), 5u);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "fitting/known_arm.hpp"
 #include "kinematics/forward.hpp"

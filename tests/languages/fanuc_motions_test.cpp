@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "kinematics/random_arm.hpp"
 #include "languages/reading_checks.hpp"
+#include "parsed_programs/arrivals.hpp"
 
 namespace demecal {
 namespace {
@@ -46,7 +48,13 @@ std::string said(const Program& program) {
 
 bool ends_at(const Program& program, const std::string& text, const std::string& statement) {
   const std::size_t begin = text.find(statement);
-  return std::ranges::any_of(program.unknown_motions, [&](std::size_t at) { return at == begin; });
+  return std::ranges::any_of(program.joints_lost_at, [&](std::size_t at) { return at == begin; });
+}
+
+/// The name of the target that the motion at a byte goes to.
+std::string target_at(const Program& program, std::size_t motion) {
+  const auto found = std::ranges::find(program.targets, motion, &Target::order);
+  return found == program.targets.end() ? "?" : found->name;
 }
 
 TEST(FanucMotions, ToPositionsOfOtherGroupsAloneAreLeft) {
@@ -92,6 +100,46 @@ TEST(FanucMotions, ThatTouchOffsetShiftsAreLeft) {
       position(1) + position(2) + position(3));
   EXPECT_THAT(names(program), ElementsAre("P[1]", "P[3]"));
   EXPECT_THAT(said(program), AllOf(HasSubstr("P[2]: "), HasSubstr("shifted by Touch Offset")));
+}
+
+TEST(FanucMotions, ThatMayStopOnTheWayAreNoPlaceToComeFrom) {
+  const auto origins = [](const std::string& skip) {
+    const std::string moves = " 1:J P[1] 9% FINE ;\n 2:L P[2] 9mm/sec FINE" + skip +
+                              " ;\n 3:L P[3] 9mm/sec FINE ;\n 4:END ;\n 5:LBL[7:missed] ;\n 6:L P[4] 9mm/sec FINE ;\n";
+    const Program program = read_listing(moves, position(1) + position(2) + position(3) + position(4));
+    EXPECT_THAT(names(program), ElementsAre("P[1]", "P[2]", "P[3]", "P[4]")) << skip;
+    EXPECT_THAT(said(program), IsEmpty()) << skip;
+    std::map<std::string, std::string> names_of_origins;
+    for (const auto& [motion, from] : arrivals(program)) {
+      std::string& all = names_of_origins[target_at(program, motion)];
+      for (const std::size_t origin : from) all += target_at(program, origin);
+    }
+    return names_of_origins;
+  };
+  using Origins = std::map<std::string, std::string>;
+  for (const char* const skip : {" Skip,LBL[7]", " SKIP,LBL[7:missed]", " ACC50 Skip,LBL[7],PR[5:hit]=LPOS"})
+    EXPECT_EQ(origins(skip), (Origins{{"P[1]", ""}, {"P[2]", "P[1]"}, {"P[3]", ""}, {"P[4]", "P[2]"}})) << skip;
+  EXPECT_EQ(origins(" Search[-Z]"), (Origins{{"P[1]", ""}, {"P[2]", "P[1]"}, {"P[3]", ""}, {"P[4]", ""}}));
+  EXPECT_EQ(origins(" ACC50"), (Origins{{"P[1]", ""}, {"P[2]", "P[1]"}, {"P[3]", "P[2]"}, {"P[4]", ""}}));
+}
+
+TEST(FanucMotions, OfProgramsThatDoNotMoveTheFirstGroupAreLeft) {
+  const auto read_with = [](const std::string& groups) {
+    const ProgramSource source("/PROG T\n/ATTR\nTCD: STACK_SIZE = 0;\nDEFAULT_GROUP\t= " + groups + ";\n" +
+                                   listing(" 1:J P[1] 9% FINE ;\n", position(1)),
+                               "p");
+    return read_program(row_of(WrittenIn::fanuc_ls), source, wrist_arm(),
+                        {.frames = {{"2", any_frame()}}, .tools = {{"3", any_frame()}}});
+  };
+  for (const char* const other : {"*,1,*,*,*", "*,*,*,*,*", " * , 1"}) {
+    EXPECT_THAT(names(read_with(other)), IsEmpty()) << other;
+    EXPECT_THAT(said(read_with(other)), HasSubstr("P[1]: the program does not move the first group of motion"))
+        << other;
+  }
+  for (const char* const first : {"1,*,*,*,*", "1,1,*,*,*", "1"}) {
+    EXPECT_THAT(names(read_with(first)), ElementsAre("P[1]")) << first;
+    EXPECT_THAT(said(read_with(first)), IsEmpty()) << first;
+  }
 }
 
 TEST(FanucMotions, AreInFramesThatSystemVariablesChange) {

@@ -289,7 +289,7 @@ TEST(OtherFrames, AreUnknownWhereInstructionsMoveThem) {
                          ".LOCATIONS\np 1 0 0 0 1 0 0 0 1 10 20 30\n.END\n.PROGRAM a\n FLIP\n MOVES p\n.END\n"),
               ::testing::ElementsAre(HasSubstr("configuration (flip)")));
   const std::string drives = ".TRANS\np 1 2 3 4 5 6\n.END\n.PROGRAM a()\n LMOVE p\n DRIVE 5,180\n LMOVE p\n.END\n";
-  EXPECT_THAT(read_program(WrittenIn::kawasaki_as, drives, "p", wrist_arm()).unknown_motions,
+  EXPECT_THAT(read_program(WrittenIn::kawasaki_as, drives, "p", wrist_arm()).joints_lost_at,
               ::testing::Contains(drives.find("DRIVE")));
 }
 

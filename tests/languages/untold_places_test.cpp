@@ -9,6 +9,7 @@
 
 #include "kinematics/random_arm.hpp"
 #include "languages/reading_checks.hpp"
+#include "parsed_programs/arrivals.hpp"
 
 namespace demecal {
 namespace {
@@ -39,7 +40,7 @@ bool ends_in_line(const Program& program, const std::string& text, std::size_t l
   for (std::size_t i = 0; i < program.way.size(); ++i) {
     if (!behind_others.contains(i) && is_there(program.way[i].begin)) return true;
   }
-  return std::ranges::any_of(program.unknown_motions, is_there);
+  return std::ranges::any_of(program.joints_lost_at, is_there);
 }
 
 /// Expects that the line of `text` is reported so, and that what is known of the joints ends there.
@@ -122,7 +123,7 @@ TEST(UntoldPlaces, OfVal3AreReported) {
   EXPECT_TRUE(ends_in_line(read_program(WrittenIn::val3, bad, "p", wrist_arm()), bad, 3)) << "it leaves numbers out";
   EXPECT_TRUE(ends_in_line(read_program(WrittenIn::val3, changed, "p", wrist_arm()), changed, 3));
   const std::string told = of("movej(j,flange,m)");
-  EXPECT_THAT(read_program(WrittenIn::val3, told, "p", wrist_arm()).unknown_motions, IsEmpty());
+  EXPECT_THAT(read_program(WrittenIn::val3, told, "p", wrist_arm()).joints_lost_at, IsEmpty());
 }
 
 TEST(UntoldPlaces, OfYaskawaAreReported) {
@@ -139,8 +140,26 @@ TEST(UntoldPlaces, OfYaskawaAreReported) {
         << motion;
   }
   EXPECT_THAT(read_program(WrittenIn::yaskawa_jbi, job + "MOVL P003 V=5.0 +MOVJ EC00001\nEND\n", "p", wrist_arm())
-                  .unknown_motions,
+                  .joints_lost_at,
               IsEmpty());
+}
+
+TEST(UntoldPlaces, OfYaskawaAreWhereASearchStopsOnTheWay) {
+  const auto of = [](const std::string& more) {
+    return "//POS\n///POSTYPE BASE\n///RECTAN\nC1=1,2,3,4,5,6\nC2=2,2,3,4,5,6\n//INST\nNOP\nMOVL C1 V=10.0" + more +
+           "\nMOVL C2\nEND\n";
+  };
+  for (const char* const search : {" UNTIL IN#(1)=ON", " PL=0 UNTIL IN#(3)=OFF"}) {
+    const Program program = read_program(WrittenIn::yaskawa_jbi, of(search), "p", wrist_arm());
+    EXPECT_THAT(names(program), ::testing::ElementsAre("C1", "C2")) << search;
+    EXPECT_THAT(said_in_line(program, 8), IsEmpty()) << search;
+    EXPECT_THAT(arrivals(program).at(program.targets.at(1).order), IsEmpty()) << search;
+  }
+  for (const char* const other : {"", " PL=0", " NWAIT"}) {
+    const Program program = read_program(WrittenIn::yaskawa_jbi, of(other), "p", wrist_arm());
+    EXPECT_THAT(arrivals(program).at(program.targets.at(1).order), ::testing::ElementsAre(program.targets.at(0).order))
+        << other;
+  }
 }
 
 TEST(UntoldPlaces, OfYaskawaAreAllPositionsWhereOneOfThemChangesWhoseNumberIsComputed) {
@@ -171,7 +190,27 @@ TEST(UntoldPlaces, OfFanucAreReported) {
       of("  2:L P[4] 9mm/sec FINE ;\n",
          "P[4]{\n GP1:\n UF : 0, UT : 0,\n X = ******** mm, Y = 1 mm, Z = 1 mm, W = 1 deg, P = 1 deg, R = 1 deg\n};\n");
   EXPECT_TRUE(ends_in_line(read_program(WrittenIn::fanuc_ls, untaught, "p", wrist_arm()), untaught, 3));
-  EXPECT_THAT(read_program(WrittenIn::fanuc_ls, of(""), "p", wrist_arm()).unknown_motions, IsEmpty());
+  EXPECT_THAT(read_program(WrittenIn::fanuc_ls, of(""), "p", wrist_arm()).joints_lost_at, IsEmpty());
+}
+
+TEST(UntoldPlaces, OfRapidAreWhereInstructionsMoveThatAreHandedTargets) {
+  const auto is_known_behind = [](const std::string& statement) {
+    const std::string text =
+        "MODULE m\nCONST robtarget pA:=[[1,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+        "CONST robtarget pB:=[[2,2,3],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nVAR robtarget pC;\n"
+        "PROC main()\nMoveJ pA,v9,fine,tool0;\n" +
+        statement + "\nMoveL pB,v9,fine,tool0;\nENDPROC\nENDMODULE\n";
+    const Program program = read_program(WrittenIn::rapid, text, "p", wrist_arm());
+    return !arrivals(program).at(program.targets.at(1).order).empty();
+  };
+  for (const char* const moves : {"SearchL\\Stop,di1,pC,pA,v9,tool0;", "ArcLStart pA,v9,sm1,wd1,fine,tool0;",
+                                  "MoveHome pA,v9;", "IF di1=1 SearchC\\Stop,di1,pC,pA,pA,v9,tool0;"})
+    EXPECT_FALSE(is_known_behind(moves)) << moves;
+  for (const char* const stays :
+       {"", "WaitTime 1;", "pC:=pA;", "TPWrite \"at\"\\Pos:=pA.trans;",
+        "IF Distance(pA.trans,pB.trans)>5 THEN\nWaitTime 1;\nENDIF", "d:=Distance(pA.trans,pA.trans);",
+        "MoveAbsJ [[1,2,3,4,5,6],[9E9,9E9,9E9,9E9,9E9,9E9]]\\NoEOffs,v9,fine,tool0;"})
+    EXPECT_TRUE(is_known_behind(stays)) << stays;
 }
 
 TEST(UntoldPlaces, OfAsAndVal2AreReported) {
@@ -181,7 +220,7 @@ TEST(UntoldPlaces, OfAsAndVal2AreReported) {
        {std::tuple{WrittenIn::kawasaki_as, as, " LMOVE "}, std::tuple{WrittenIn::val2, val2, " MOVES "}}) {
     expect_untold(language, head + motion + "lost\n", 5, "lost: it is not given as numbers in this program");
     expect_untold(language, head + motion + "p\n" + motion + "#lost[2]\n", 6, "#lost[2]: it is not given as numbers");
-    EXPECT_THAT(read_program(language, head + motion + "p\n", "p", wrist_arm()).unknown_motions, IsEmpty());
+    EXPECT_THAT(read_program(language, head + motion + "p\n", "p", wrist_arm()).joints_lost_at, IsEmpty());
   }
   expect_untold(WrittenIn::kawasaki_as, as + " LAPPRO lost,50\n", 5, "lost: it is not given as numbers");
   expect_untold(WrittenIn::val2, val2 + " APPRO lost,50\n", 5, "lost: it is not given as numbers");

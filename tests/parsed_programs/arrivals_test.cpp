@@ -22,7 +22,7 @@ Program moving_at(const std::vector<std::size_t>& motions) {
 TEST(Arrivals, AreFromTheMotionBeforeWhereNoWayIsTold) {
   Program program = moving_at({10, 20, 30, 40});
   program.targets[0].further_motions = {35};
-  program.unknown_motions = {30};
+  program.joints_lost_at = {30};
   program.further = {{"b", 38}};
   const auto found = arrivals(program);
   EXPECT_THAT(found.at(10), IsEmpty());
@@ -45,9 +45,9 @@ TEST(Arrivals, AreUnknownWhereOneOfTheWaysIs) {
   Program program = moving_at({10, 20, 30});
   program.way = {{0, {1, 2}}, {15, {2}}, {28, {}}};
   EXPECT_THAT(arrivals(program).at(30), ElementsAre(10, 20));
-  program.unknown_motions = {22};
+  program.joints_lost_at = {22};
   EXPECT_THAT(arrivals(program).at(30), IsEmpty());
-  program.unknown_motions = {12};
+  program.joints_lost_at = {12};
   EXPECT_THAT(arrivals(program).at(20), IsEmpty());
   EXPECT_THAT(arrivals(program).at(30), IsEmpty());
 }

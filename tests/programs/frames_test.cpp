@@ -11,7 +11,9 @@
 namespace demecal {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kExternal = "[9E9,9E9,9E9,9E9,9E9,9E9]";
 const std::string kRobtarget = "[[100,200,300],[1,0,0,0],[0,0,0,0]," + kExternal + "]";
@@ -206,7 +208,22 @@ TEST(GivenTool, LeavesTheMeasuredToolToTargetsThatStateTheirs) {
   EXPECT_NE(text_of(script, WrittenIn::urscript, beside, model), text_of(script, WrittenIn::urscript, alone, own));
 }
 
-TEST(GivenTool, NamesTheToolsThatItStandsInForAndIsNotSeveralOfOnePoint) {
+TEST(GivenTool, IsNoWorkObjectOfAPointThatNoMotionNames) {
+  RandomStream stream{7515};
+  const CommandModel model = erring_model(stream, elbow_arm(stream));
+  const std::string text =
+      "MODULE m\nCONST robtarget pOther:=[[500,200,300],[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\nPROC main()\n"
+      "MoveAbsJ [[10,-60,70,20,50,5],[9E9,9E9,9E9,9E9,9E9,9E9]],v9,fine,tGrip;\nENDPROC\nENDMODULE\n";
+  const CorrectedProgram corrected =
+      correct_program(text, read_program(WrittenIn::rapid, text, "p", model.nominal.chain), model,
+                      {.temperature_celsius = 20.0, .tool_given = true});
+  ASSERT_EQ(corrected.targets.size(), 2u);
+  EXPECT_EQ(corrected.targets[0].outcome, CorrectionOutcome::uncorrected);
+  EXPECT_EQ(corrected.targets[0].remarks, std::vector<std::string>{"no motion names it; this line was not corrected"});
+  EXPECT_EQ(corrected.targets[1].outcome, CorrectionOutcome::corrected);
+}
+
+TEST(GivenTool, StandsInForOneToolAlone) {
   RandomStream stream{7514};
   const CommandModel model = erring_model(stream, elbow_arm(stream));
   const Circumstances given{.temperature_celsius = 20.0, .tool_given = true};
@@ -220,7 +237,11 @@ TEST(GivenTool, NamesTheToolsThatItStandsInForAndIsNotSeveralOfOnePoint) {
   const std::string axes = "PTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n",
                     joints = "DECL E6AXIS XP1={A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\n";
   EXPECT_THAT(said_of(WrittenIn::krl, "BAS(#TOOL,3)\n" + axes + "BAS(#TOOL,4)\n" + axes),
-              HasSubstr("stands in for 2 different ones, TOOL_DATA[3], TOOL_DATA[4], that"));
+              AllOf(HasSubstr("TOOL_DATA[3] is given neither in this program nor by --frames; this line was not "
+                              "corrected; --tool-mm states one "
+                              "tool, and the program has 2 that are not known (TOOL_DATA[3], TOOL_DATA[4]): --frames"),
+                    HasSubstr("TOOL_DATA[4] is given neither in this program nor by --frames; this line was not"),
+                    Not(HasSubstr("stands in"))));
   EXPECT_THAT(said_of(WrittenIn::krl, "BAS(#TOOL,3)\n" + axes + axes), HasSubstr("stands in for one that"));
   EXPECT_THAT(said_of(WrittenIn::krl, joints + "BAS(#TOOL,3)\nPTP XP1\nBAS(#TOOL,4)\nPTP XP1\n"),
               HasSubstr("it is moved to with different tools; this line was not corrected\n"));
@@ -230,7 +251,8 @@ TEST(GivenTool, NamesTheToolsThatItStandsInForAndIsNotSeveralOfOnePoint) {
            ",\n J1= 10 deg, J2= -60 deg, J3= 70 deg, J4= 20 deg, J5= 50 deg, J6= 5 deg\n};\n";
   };
   EXPECT_THAT(said_of(WrittenIn::fanuc_ls, listed + position("1", "1") + position("2", "2") + "/END\n"),
-              HasSubstr("stands in for 2 different ones, UT 1, UT 2, that"));
+              AllOf(HasSubstr("UT 1 is given neither in this program nor by --frames; this line was not corrected"),
+                    HasSubstr("UT 2 is given neither in this program nor by --frames; this line was not corrected")));
   EXPECT_THAT(said_of(WrittenIn::fanuc_ls, listed + position("1", "1") + position("2", "1") + "/END\n"),
               HasSubstr("stands in for one that"));
 }

@@ -78,6 +78,33 @@ TEST(ShortForms, ErrAtMostFivePerCentMoreTogether) {
   }
 }
 
+/// 600 validation poses of two targets in turn, the one where joint 3 does not move it.
+DataSet measured_in_turn(const CorrectedRobot& truth) {
+  DataSet data = measured(truth, 0.0, 4);
+  RandomStream random{4, 816};
+  for (int i = 0; i < 600; ++i) {
+    MeasuredPose pose;
+    pose.target = i % 2 == 0 ? "axis" : "far";
+    pose.joints.resize(3);
+    for (int joint = 0; joint < 3; ++joint) pose.joints[joint] = random.real(-1.3, 1.3);
+    const Eigen::Vector3d noise(random.normal(), random.normal(), random.normal());
+    pose.position_m = truth.predict(pose.joints, pose.target).translation() + 5e-5 * noise;
+    pose.set = PoseSet::validation;
+    data.poses.push_back(pose);
+  }
+  return data;
+}
+
+TEST(ShortForms, AreJudgedOnEveryTargetMeasuredInTurn) {
+  CorrectedRobot model = arm({"", "", "0.001*SIN(theta)+0.0003*SIN(5*theta*theta)"});
+  model.tools["axis"] = Eigen::Isometry3d(Eigen::Translation3d(-0.4, 0, 0));
+  model.tools["far"] = Eigen::Isometry3d(Eigen::Translation3d(0.1, 0, 0));
+  DataSet data = measured_in_turn(model);
+  std::erase_if(data.poses,
+                [](const MeasuredPose& pose) { return pose.set == PoseSet::validation && pose.target.empty(); });
+  EXPECT_FALSE(short_forms(data, model)[2]);
+}
+
 TEST(ShortForms, AreNotMadeUpWhereNoneDoes) {
   const CorrectedRobot model = arm({"", "0.002*SIGN(SIN(7*theta*theta))", ""});
   EXPECT_FALSE(short_forms(measured(model, 2e-5, 3), model)[1]);

@@ -107,6 +107,31 @@ TEST_P(KnownStructure, FindsAnEquivalentOfAKnownExtraTransformAndBeatsLinksOnAcc
 
 INSTANTIATE_TEST_SUITE_P(Seeds, KnownStructure, testing::Values(1, 2, 3));
 
+/// Two targets in turn, the one on the axis of the last joint, where what the structure turns moves it least.
+Measured measured_in_turn(const Genome& genome, std::vector<double> values) {
+  RandomStream stream{1222};
+  Measured result{data_of(puma()), {placed_robot(stream, puma()), genome, std::move(values)}};
+  result.data.tools_m = {{"axis", Eigen::Vector3d::Zero()}, {"far", {0.15, 0.0, 0.0}}};
+  result.truth.robot.tools = nominal_robot(result.data).tools;
+  for (int i = 0; i < 120; ++i) {
+    MeasuredPose pose;
+    pose.target = i % 2 == 0 ? "axis" : "far";
+    pose.set = i < 60 ? PoseSet::calibration : PoseSet::validation;
+    pose.joints = random_joints(stream, puma());
+    pose.position_m = result.truth.predict(pose.joints, pose.target).translation();
+    result.data.poses.push_back(pose);
+  }
+  return result;
+}
+
+TEST(StructureSearch, LearnsFromEveryTargetMeasuredInTurn) {
+  const Measured arm = measured_in_turn({{}, {}, {}, {}, {}, {kTurnY}}, {0.003});
+  RandomStream random{8};
+  const StructureFound found =
+      search_structure(problem_of(arm), {.population = 20, .generations = 10, .most_poses = 30}, random);
+  EXPECT_LT(found.fit.selection_cost, 1e-3);
+}
+
 TEST(StructureSearch, GivesTheSameOnEveryRun) {
   const Measured arm = measured({{}, {kTurnY}, {}, {}, {}, {}}, {0.003}, 1e-4, 4);
   const StructureOptions options{.population = 10, .generations = 5};
