@@ -14,6 +14,7 @@
 #include "errors/input_error.hpp"
 #include "languages/languages.hpp"
 #include "parsed_programs/language.hpp"
+#include "urdf/sdf_file.hpp"
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"
 #include "yaml/files.hpp"
@@ -171,21 +172,21 @@ std::string seen_from(const std::string& file, const std::string& beside) {
 }  // namespace
 
 ImportedRobot import_urdf(const ImportRequest& request) {
-  const UrdfFile urdf = parse_urdf(read_file(request.file), request.file);
+  const UrdfFile urdf = parse_urdf_or_sdf(read_file(request.file), request.file);
   const UrdfArm arm = arm_between(urdf, request.base, request.tip);
   Robot robot;
   robot.name = urdf.robot.empty() ? "arm" : urdf.robot;
   robot.drawing = arm.drawing;
   robot.masses = arm.masses;
   for (const LinkMass& mass : arm.masses) robot.drawing->centres_m.push_back(mass.centre_m);
-  robot.urdf = UrdfSource{seen_from(request.file, request.beside), arm.base, arm.tip};
+  if (!urdf.is_sdf) robot.urdf = UrdfSource{seen_from(request.file, request.beside), arm.base, arm.tip};
   std::ostringstream text;
   text << yaml_comment("Imported from " + std::filesystem::path(request.file).filename().string() + ": from link " +
                        arm.base + " to link " + arm.tip);
   for (const std::string& note : arm.notes) text << yaml_comment("Check: " + note);
   text << "demecal_robot: 1\n" << robot_text(robot);
   read_robot(parse_yaml(text.str(), request.beside));  // what would be refused is not written
-  return {text.str(), arm.notes};
+  return {text.str(), arm.notes, arm.base, arm.tip};
 }
 
 }  // namespace demecal::inline drafting

@@ -20,15 +20,17 @@ std::string template_text(TemplateKind kind, const std::vector<std::filesystem::
 /// A calibration job for the data set of that name.
 std::string first_job_text(const std::string& data_set);
 
-/// The ROBOT.yaml of an arm imported from a URDF, with what was assumed as comments. Paths are as in its arguments.
+/// The ROBOT.yaml of an arm imported from a URDF or an SDF, with what was assumed as comments. Paths are as in its
+/// arguments. A URDF is named in it, so that it can be written anew with calibrated origins; an SDF is not.
 struct ImportRequest {
-  std::string file;                      ///< the URDF
+  std::string file;                      ///< the URDF or SDF
   std::optional<std::string> base, tip;  ///< links
   std::string beside;                    ///< the file that the text will stand in
 };
 struct ImportedRobot {
   std::string text;
   std::vector<std::string> notes;
+  std::string base{}, tip{};  ///< the links that the arm begins and ends at
 };
 ImportedRobot import_urdf(const ImportRequest& request);
 

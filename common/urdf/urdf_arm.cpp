@@ -86,9 +86,9 @@ void set_limits(const UrdfJoint& joint, Joint& row, std::vector<std::string>& no
 }
 
 void check_moving(const UrdfFile& urdf, const UrdfJoint& joint, const Way& way, std::vector<std::string>& notes) {
-  if (joint.type == UrdfType::floating || joint.type == UrdfType::planar) {
+  if (joint.type > UrdfType::fixed) {
     refuse(urdf, joint,
-           std::string("is a ") + (joint.type == UrdfType::planar ? "planar" : "floating") +
+           "is a " + std::string(to_string(joint.type)) +
                " joint, which no serial arm has; say --base LINK and --tip LINK on one side of it");
   }
   if (joint.axis.norm() < kShortestAxis)

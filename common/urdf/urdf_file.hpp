@@ -1,10 +1,11 @@
-// A URDF: its links and joints, read strictly, each with where it stands in the file.
+// A URDF: its links and joints, read strictly, each with where it stands in the file. An SDF is read into the same.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -13,7 +14,25 @@
 
 namespace demecal::inline urdf {
 
-enum class UrdfType { revolute, continuous, prismatic, fixed, floating, planar };
+enum class UrdfType {
+  revolute,
+  continuous,
+  prismatic,
+  fixed,
+  floating,
+  planar,
+  ball,  ///< this one and the following in SDFs only
+  universal,
+  screw,
+  revolute2,
+  gearbox
+};
+inline constexpr UrdfType kLastUrdfType = UrdfType::planar;
+
+/// As the files call it.
+std::string_view to_string(UrdfType type);
+/// Nothing where neither URDFs nor SDFs have such a type.
+std::optional<UrdfType> type_named(std::string_view name);
 
 struct UrdfJoint {
   std::string name, parent, child;
@@ -34,8 +53,9 @@ struct UrdfLink {
 
 struct UrdfFile {
   std::string file, robot;
-  std::vector<UrdfLink> links;
-  std::vector<UrdfJoint> joints;
+  bool is_sdf = false;  ///< the text holds no origins that could be written anew
+  std::vector<UrdfLink> links{};
+  std::vector<UrdfJoint> joints{};
 
   /// The joint that leads to a link; null for the root.
   const UrdfJoint* joint_to(const std::string& link) const;
@@ -49,5 +69,9 @@ inline bool moves(const UrdfJoint& joint) {
 
 /// Throws InputError with file, line, value and rule where the text is no URDF, or its links and joints make no tree.
 UrdfFile parse_urdf(const std::string& text, const std::string& file);
+UrdfFile parse_urdf(const XmlElement& root, const std::string& file);
+
+/// Throws InputError where names are given twice or unknown, or links and joints make no tree.
+void check_tree(const UrdfFile& urdf);
 
 }  // namespace demecal::inline urdf

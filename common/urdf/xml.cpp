@@ -90,6 +90,7 @@ class Parser {
       return false;
     }
     count_lines(found);
+    if (!open_.empty()) open_.back().text += resolved(std::string_view(text_).substr(at_, found - at_), false);
     at_ = found;
     return true;
   }
@@ -116,11 +117,18 @@ class Parser {
 
   void tag() {
     if (here("<!--")) return pass("<!--", "-->", "a comment");
-    if (here("<![CDATA[")) return pass("<![CDATA[", "]]>", "a CDATA section");
+    if (here("<![CDATA[")) return character_data();
     if (here("<?")) return pass("<?", "?>", "a processing instruction");
     if (here("<!")) return doctype();
     if (here("</")) return end_tag();
     start_tag();
+  }
+
+  void character_data() {
+    constexpr std::string_view kBegin = "<![CDATA[", kEnd = "]]>";
+    const std::size_t begin = at_ + kBegin.size();
+    pass(kBegin, kEnd, "a CDATA section");
+    if (!open_.empty()) open_.back().text += text_.substr(begin, at_ - kEnd.size() - begin);
   }
 
   void doctype() {
@@ -202,12 +210,13 @@ class Parser {
     if (one.end == std::string::npos) fail(one.name, "is an attribute whose quotes do not end");
     const std::string_view raw = std::string_view(text_).substr(one.begin, one.end - one.begin);
     if (raw.find('<') != std::string_view::npos) fail(one.name, "holds <; its quotes seem not to end");
-    one.value = resolved(raw);
+    one.value = resolved(raw, true);
     at_ = one.end + 1;
     return one;
   }
 
-  std::string resolved(std::string_view raw) const {
+  /// With known entities resolved; others are refused where it is `strict`.
+  std::string resolved(std::string_view raw, bool strict) const {
     std::string value;
     for (std::size_t i = 0; i < raw.size(); ++i) {
       if (raw[i] != '&') {
@@ -216,7 +225,11 @@ class Parser {
       }
       const std::size_t end = raw.find(';', i);
       const std::string meant = end == std::string_view::npos ? "" : entity(raw.substr(i + 1, end - i - 1));
-      if (meant.empty()) fail(std::string(raw), "holds & that begins no known entity; write &amp;");
+      if (meant.empty() && strict) fail(std::string(raw), "holds & that begins no known entity; write &amp;");
+      if (meant.empty()) {
+        value += raw[i];
+        continue;
+      }
       value += meant;
       i = end;
     }

@@ -23,14 +23,14 @@ struct XmlElement {
   bool stands_closed = false;  ///< "<name/>"
   std::vector<XmlAttribute> attributes;
   std::vector<XmlElement> children;
+  std::string text;  ///< directly in it, without comments; known entities resolved, others as they stand
 
   const XmlAttribute* attribute(std::string_view key) const;
   /// The first child of that name.
   const XmlElement* child(std::string_view key) const;
 };
 
-/// The root element of a document. Throws InputError with file and line where it is no well-formed XML in UTF-8. Text
-/// between elements is passed over.
+/// The root element of a document. Throws InputError with file and line where it is no well-formed XML in UTF-8.
 XmlElement parse_xml(const std::string& text, const std::string& file);
 
 }  // namespace demecal::inline urdf

@@ -97,7 +97,7 @@ DataSetDraft write_fitting_draft(const std::filesystem::path& file, const std::v
 
 /// The arm's file as it will stand in the new folder, and what was assumed of it.
 ImportedRobot robot_file(const NewRequest& request) {
-  if (request.urdf.empty()) return {read_file(request.robot), {}};
+  if (request.urdf.empty()) return {.text = read_file(request.robot), .notes = {}};
   ImportRequest urdf{request.urdf, {}, {}, request.folder + "/robot.yaml"};
   if (!request.base.empty()) urdf.base = request.base;
   if (!request.tip.empty()) urdf.tip = request.tip;
@@ -153,10 +153,10 @@ void add_new(CLI::App& app, ExitCode& exit_code) {
   command->add_option("folder", request->folder, "folder to write")->required();
   CLI::Option_group* arm = command->add_option_group("arm", "one of");
   arm->add_option("--robot", request->robot, "ROBOT.yaml");
-  CLI::Option* urdf = arm->add_option("--urdf", request->urdf, "URDF of the arm");
+  CLI::Option* urdf = arm->add_option("--urdf", request->urdf, "URDF or SDF of the arm");
   arm->require_option(1);
-  command->add_option("--base", request->base, "LINK of the URDF that the arm stands on")->needs(urdf);
-  command->add_option("--tip", request->tip, "LINK of the URDF at the arm's flange")->needs(urdf);
+  command->add_option("--base", request->base, "LINK of that file that the arm stands on")->needs(urdf);
+  command->add_option("--tip", request->tip, "LINK of that file at the arm's flange")->needs(urdf);
   command->add_option("--poses", request->poses, "tables with joints and measured points; several are joined")
       ->required();
   command->add_option("--delimiter", request->delimiter, "between columns, where it cannot be told")

@@ -48,7 +48,7 @@ ExitCode run_import(ImportOptions options) {
   write_result(folder, out.filename().string(), imported.text);
   const Robot robot = load_robot(options.urdf.beside);
   fmt::print("{}: {}, {} joints, from link {} to link {}\n", options.urdf.beside, robot.name, robot.chain.size(),
-             robot.urdf->base, robot.urdf->tip);
+             imported.base, imported.tip);
   return ExitCode::done;
 }
 
@@ -258,8 +258,8 @@ ExitCode run_show(const ShowOptions& options) {
 
 void add_import(CLI::App& robot, ExitCode& exit_code) {
   const auto options = std::make_shared<ImportOptions>();
-  CLI::App* command = robot.add_subcommand("import", "a ROBOT.yaml from a URDF");
-  command->add_option("urdf", options->urdf.file, "FILE.urdf; xacro must be expanded before")->required();
+  CLI::App* command = robot.add_subcommand("import", "a ROBOT.yaml from a URDF or an SDF");
+  command->add_option("urdf", options->urdf.file, "FILE.urdf or FILE.sdf; xacro must be expanded before")->required();
   command->add_option("--out", options->urdf.beside, "ROBOT.yaml to write")->required();
   command->add_option("--base", options->base, "link that the arm begins at (default: the root link)");
   command->add_option("--tip", options->tip, "link that the arm ends at: the flange (default: the only one it can be)");
@@ -289,7 +289,7 @@ void add_show(CLI::App& robot, ExitCode& exit_code) {
 }  // namespace
 
 void add_robot(CLI::App& app, ExitCode& exit_code) {
-  CLI::App* command = app.add_subcommand("robot", "arms: import from a URDF, show, compare with a controller");
+  CLI::App* command = app.add_subcommand("robot", "arms: import from a URDF or SDF, show, compare with a controller");
   command->require_subcommand(1);
   add_import(*command, exit_code);
   add_show(*command, exit_code);

@@ -135,6 +135,27 @@ TEST(ExportedUrdf, IsANewOneOfArmsThatWereNotImported) {
   }
 }
 
+TEST(ExportedUrdf, IsANewOneOfAnSdfWhichIsNeverRewritten) {
+  const std::string sdf =
+      "<sdf version='1.9'><model name='m'><link name='base'/><link name='a'><pose>0 0 0.4 0 0 0</pose></link>"
+      "<link name='b'><pose>0.3 0 0.4 0 0 0</pose></link>"
+      "<joint name='j1' type='revolute'><parent>base</parent><child>a</child><axis><xyz>0 0 1</xyz></axis></joint>"
+      "<joint name='j2' type='revolute'><parent>a</parent><child>b</child><axis><xyz>0 1 0</xyz></axis></joint>"
+      "</model></sdf>";
+  RandomStream stream{1844};
+  const TemporaryFolder folder;
+  CalibratedModel model = model_of(imported(folder, sdf));
+  EXPECT_FALSE(model.nominal.urdf);
+  disturb(model, stream, 1e-3);
+  const ExportedArm exported = calibrated_urdf(model, "");
+  expect_same_motion(chain_in(exported.text, "flange"), model.robot.chain, stream);
+  EXPECT_THAT(exported.notes, Contains(HasSubstr("not imported from a URDF; a new one")));
+  const std::string file = folder.write("arm.sdf", sdf);
+  EXPECT_THAT(complaint([&] { calibrated_urdf(model, file); }), HasSubstr("without --urdf a new one"));
+  const CalibratedModel of_urdf = model_of(imported(folder, kUrdf));
+  EXPECT_THAT(complaint([&] { calibrated_urdf(of_urdf, file); }), HasSubstr("is an SDF; a URDF is expected"));
+}
+
 /// Without returns and what is blank at its end.
 std::string bare(std::string text) {
   std::erase(text, '\r');

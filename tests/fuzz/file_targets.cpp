@@ -106,7 +106,9 @@ std::vector<Target> file_targets() {
            reader("frames.yaml", load_frames)},
           {"matrices", {shipped("configs/matrices/puma761.yaml")}, reader("matrices.yaml", read_matrices)},
           {"grid", {shipped("configs/grids/search.yaml")}, reader("grid.yaml", load_grid)},
-          {"urdf", {shipped("tests/fuzz/seeds/arm.urdf")}, reader("arm.urdf", read_urdf)},
+          {"urdf",
+           {shipped("tests/fuzz/seeds/arm.urdf"), shipped("tests/fuzz/seeds/arm.sdf")},
+           reader("arm.urdf", read_urdf)},
           {"model",
            {shipped("tests/fuzz/seeds/model.yaml"), shipped("tests/fuzz/seeds/sharing-model.yaml")},
            reader("model.yaml", read_model)}};

@@ -136,10 +136,11 @@ TEST(Xml, KnowsTheBytesOfValuesAndPassesOverTheRest) {
   const std::string text =
       "\xef\xbb\xbf<?xml version='1.0'?><!DOCTYPE robot [<!ENTITY a 'b'>]>\n<!-- <robot> -->\n<robot name = 'a "
       "&lt;&#65;&#x42;'>"
-      "text <![CDATA[<x>]]><link\n name=\"b\"/></robot>\n<!-- end -->";
+      "text &amp; &what;<![CDATA[<x>]]><link\n name=\"b\"/>.</robot>\n<!-- end -->";
   const XmlElement root = parse_xml(text, "x");
   EXPECT_EQ(root.attribute("name")->value, "a <AB");
   EXPECT_EQ(root.line, 3u);
+  EXPECT_EQ(root.text, "text & &what;<x>.");
   ASSERT_EQ(root.children.size(), 1u);
   const XmlElement& link = root.children[0];
   EXPECT_EQ(text.substr(link.attribute("name")->begin, 1), "b");
