@@ -13,7 +13,7 @@ namespace {
 constexpr int kAxesInModel = 4;  ///< version 1.4: axes are in the model's frame if nothing else is said
 
 /// The text of a child element; nothing where it is not there.
-std::optional<std::string> content_of(const XmlValues& values, const XmlElement& element, const char* name) {
+std::optional<std::string> child_text(const XmlValues& values, const XmlElement& element, const char* name) {
   const XmlElement* child = element.child(name);
   return child == nullptr ? std::nullopt : std::optional(values.content(*child));
 }
@@ -42,7 +42,7 @@ void read_limits(const XmlValues& values, const XmlElement& axis, WrittenJoint& 
 }
 
 bool states_true(const XmlValues& values, const XmlElement& element, const char* name, bool otherwise) {
-  const auto text = content_of(values, element, name);
+  const auto text = child_text(values, element, name);
   return text ? *text == "1" || lower_case(*text) == "true" : otherwise;
 }
 
@@ -82,7 +82,7 @@ WrittenJoint read_sdf_joint(const XmlValues& values, const XmlElement& element, 
   joint.line = element.line;
   joint.type = sdf_type(values, element);
   for (auto [key, end] : {std::pair{"parent", &joint.parent}, std::pair{"child", &joint.child}}) {
-    const auto stated = content_of(values, element, key);
+    const auto stated = child_text(values, element, key);
     if (!stated) values.fail(element, joint.name, "is a joint without <" + std::string(key) + ">");
     *end = *stated;
   }
