@@ -8,6 +8,7 @@
 #include "decompositions/decompositions.hpp"
 #include "diagnosis/loop.hpp"
 #include "fitting/least_squares.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 #include "residuals/structure.hpp"
@@ -127,17 +128,20 @@ class PredictionScores {
 
   void add_poses(const std::vector<std::size_t>& poses, const FittedPosterior& fitted, const CorrectedRobot& robot) {
     const std::vector<double> errors_m = tool_errors_m(robot, data_, poses);
-    for (std::size_t i = 0; i < poses.size(); ++i) add_pose(poses[i], errors_m[i], fitted, robot);
+    std::vector<double> posterior_m2(poses.size());
+    in_batches(poses.size(), [&](std::size_t i) {
+      posterior_m2[i] = posterior_square_m2(fitted.posterior, robot, data_, data_.poses[poses[i]]);
+    });
+    for (std::size_t i = 0; i < poses.size(); ++i) add_pose(poses[i], errors_m[i], posterior_m2[i]);
   }
 
-  void add_pose(std::size_t index, double error_m, const FittedPosterior& fitted, const CorrectedRobot& robot) {
+  void add_pose(std::size_t index, double error_m, double posterior_m2) {
     const MeasuredPose& pose = data_.poses[index];
     if (!std::isfinite(error_m)) return;
     const std::string name = pose.pose_id.empty() ? "line " + std::to_string(pose.line) : pose.pose_id;
     const std::size_t group = groups_.try_emplace(name, groups_.size()).first->second;
     const int axes = point_axes(pose);
-    scored_.push_back(
-        {index, group, axes, error_m * error_m, posterior_square_m2(fitted.posterior, robot, data_, pose)});
+    scored_.push_back({index, group, axes, error_m * error_m, posterior_m2});
   }
 
   /// Noise is what repeats show, or else what the fit left; of calibration poses model error is the rest of that.

@@ -10,6 +10,7 @@
 #include "effects/arm_state.hpp"
 #include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
+#include "pieces/pieces.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/smooth_corrections.hpp"
 
@@ -80,14 +81,17 @@ void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const F
                            const Projection& beyond, const Scan& scan, double variance) {
   constexpr Eigen::Index kColumnsAtATime = 256;
   const ResidualField& validation = loop.linearization.validation;
-  if (validation.poses.empty()) return;
+  if (validation.poses.empty() || candidates.empty()) return;
   EffectColumns columns;
   for (const Candidate& candidate : loop.candidates) columns.append(candidate.effect, loop.robot, validation.states);
   columns.pack();
   const std::vector<ColumnSpan>& spans = columns.spans();
-  for (std::size_t begin = 0, end = 0; begin < spans.size(); begin = end) {
-    Eigen::Index together = 0;
-    while (end < spans.size() && together < kColumnsAtATime) together += spans[end++].count;
+  std::vector<std::size_t> begins{0};
+  for (std::size_t i = 0; i < spans.size(); ++i)
+    if (spans[i].first - spans[begins.back()].first >= kColumnsAtATime) begins.push_back(i);
+  in_pieces(begins.size(), [&](std::size_t piece) {
+    const std::size_t begin = begins[piece], end = piece + 1 < begins.size() ? begins[piece + 1] : spans.size();
+    const Eigen::Index together = spans[end - 1].first + spans[end - 1].count - spans[begin].first;
     RowMatrix left(validation.rows(), together);
     for (std::size_t i = begin; i < end; ++i)
       left.middleCols(spans[i].first - spans[begin].first, spans[i].count) = columns.dense(validation, i);
@@ -100,7 +104,7 @@ void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const F
       const double square = candidates[i].score.visible.sum() / variance;
       candidates[i].validation_ratio = square > 0.0 ? seen / square : 0.0;
     }
-  }
+  });
 }
 
 /// Marks what only an effect larger than plausible of its kind would show, over the states of the poses.

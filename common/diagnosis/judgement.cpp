@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <map>
 #include <numeric>
@@ -184,10 +185,11 @@ Confirmation confirmation(const std::vector<double>& before_mm, const std::vecto
   std::vector<Sums> groups;
   for (const auto& [first, sums] : sums_of_groups) groups.push_back(sums);
   std::vector<double> shares(kConfirmationDraws);
-  std::vector<RandomStream> streams = successive(shares.size(), groups.size(), random);
+  const std::uint64_t name = random.name();
   in_pieces(shares.size(), [&](std::size_t draw) {
+    RandomStream own{name, draw};
     Sums drawn;
-    for (std::size_t i = 0; i < groups.size(); ++i) drawn += groups[streams[draw].index(groups.size())];
+    for (std::size_t i = 0; i < groups.size(); ++i) drawn += groups[own.index(groups.size())];
     shares[draw] = drawn.share();
   });
   return {all.share(), quantile(shares, 0.05)};
@@ -217,13 +219,14 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
   const std::vector<PoseSums> sums = pose_sums(field, trial, left);
   const Eigen::Index m = trial.coefficients.size();
   const Eigen::MatrixXd whole = square_product(trial.fitted);
-  std::vector<RandomStream> streams = successive(static_cast<std::size_t>(draws), sums.size(), random);
+  const std::uint64_t name = random.name();
   Eigen::MatrixXd drawn(m, draws);
-  in_pieces(streams.size(), [&](std::size_t draw) {
+  in_pieces(static_cast<std::size_t>(draws), [&](std::size_t draw) {
+    RandomStream own{name, draw};
     Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m, m);
     Eigen::VectorXd moment = Eigen::VectorXd::Zero(m);
     for (std::size_t i = 0; i < sums.size(); ++i) {
-      const PoseSums& pose = sums[streams[draw].index(sums.size())];
+      const PoseSums& pose = sums[own.index(sums.size())];
       gram += pose.gram;
       moment += pose.moment;
     }

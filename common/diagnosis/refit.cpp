@@ -1,4 +1,3 @@
-#include "decompositions/decompositions.hpp"
 #include "diagnosis/loop.hpp"
 
 #include <Eigen/Core>
@@ -13,10 +12,12 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "decompositions/decompositions.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effects/effect.hpp"
 #include "parameters/declared_model.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
@@ -115,12 +116,13 @@ void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedMode
                             std::vector<Round>& rounds) {
   constexpr std::size_t kMost = 3;
   if (!has_instrument(problem.data)) return;  // poses that nothing measures: a contact cannot be had anywhere
-  std::size_t asked = 0;
-  for (Round& round : rounds) {
-    if (!is_ambiguous(round, rounds) || asked == kMost) continue;
+  std::vector<Round*> asked;
+  for (Round& round : rounds)
+    if (asked.size() < kMost && is_ambiguous(round, rounds)) asked.push_back(&round);
+  in_pieces(asked.size(), [&](std::size_t i) {
+    Round& round = *asked[i];
     round.next_measurement = find_next_measurement(problem, model, round.effect, round.rivals, random);
-    ++asked;
-  }
+  });
 }
 
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,

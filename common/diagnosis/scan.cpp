@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -17,7 +18,7 @@
 namespace demecal::inline diagnosis {
 namespace {
 
-constexpr Eigen::Index kAtATime = 64;  ///< draws in memory
+constexpr std::size_t kAtATime = 32;  ///< draws in a piece of work
 
 constexpr double kRivalCosine = 0.9;
 constexpr double kRelated = 0.5;
@@ -115,24 +116,24 @@ std::vector<double> Scan::null_maxima(const EffectColumns& columns, const Residu
   const RowMatrixF basis = model.basis().cast<float>(), prior_basis = model.prior_basis().cast<float>();
   const Eigen::MatrixXf along = along_.cast<float>();
   const NullNoise noise(field, model);
-  std::vector<double> maxima;
-  for (Eigen::Index done = 0; done < count; done += kAtATime) {
-    const Eigen::Index now = std::min<Eigen::Index>(kAtATime, count - done);
-    Eigen::MatrixXf drawn(field.rows(), now), beliefs(prior_basis.rows(), now);
-    const std::vector<NullNoise::Rows> draws = noise.draw(static_cast<std::size_t>(now), random);
-    for (Eigen::Index i = 0; i < now; ++i) {
-      drawn.col(i) = draws[static_cast<std::size_t>(i)].fitted.cast<float>();
-      beliefs.col(i) = draws[static_cast<std::size_t>(i)].beliefs.cast<float>();
-    }
-    const RowMatrixF rows = drawn;
+  const std::uint64_t name = random.name();
+  std::vector<double> maxima(static_cast<std::size_t>(count));
+  in_pieces((maxima.size() + kAtATime - 1) / kAtATime, [&](std::size_t piece) {
+    const std::size_t done = piece * kAtATime, now = std::min(kAtATime, maxima.size() - done);
+    RandomStream own{name, piece};
+    const NullNoise::Draws draws = noise.draw(static_cast<Eigen::Index>(now), own);
+    const RowMatrixF rows = draws.fitted.cast<float>(), beliefs = draws.beliefs.cast<float>();
     const Eigen::MatrixXf explained = basis.transpose() * rows + prior_basis.transpose() * beliefs;
     const Eigen::MatrixXd moments = (columns.transposed_times(field, rows) - along * explained).cast<double>();
     const Eigen::VectorXd squares =
         (rows.colwise().squaredNorm() + beliefs.colwise().squaredNorm() - explained.colwise().squaredNorm())
             .transpose()
             .cast<double>();
-    for (Eigen::Index i = 0; i < now; ++i) maxima.push_back(best_gain(moments.col(i), squares[i]));
-  }
+    for (std::size_t i = 0; i < now; ++i) {
+      const auto draw = static_cast<Eigen::Index>(i);
+      maxima[done + i] = best_gain(moments.col(draw), squares[draw]);
+    }
+  });
   std::sort(maxima.begin(), maxima.end());
   return maxima;
 }

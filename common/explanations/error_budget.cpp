@@ -72,15 +72,17 @@ bool is_within_one_standard_error(const SquaredErrors_mm2& errors, const Squared
   return mean <= std::sqrt(variance / count);
 }
 
-/// Whether the point's error is hardly larger than that of the best, and by less than one standard error unless it has
-/// as many causes as a person acts on.
+/// Whether the point's error is hardly larger than that of the best, and by less than one standard error. Of more
+/// causes than a person acts on, a further one has to earn more.
 bool does_nearly_as_well(const ExplanationFront& front, const std::vector<SquaredErrors_mm2>& errors,
                          std::size_t point) {
   constexpr std::size_t kManyCauses = 10;
   constexpr double kHardlyMore = 1.02;  ///< of the rms error: few poses tell even large differences not surely
+  constexpr double kMoreOfMany = 1.05;
   const ExplanationFront::Point &one = front.points[point], &best = front.points[front.best];
-  if (one.validation_rms_mm > kHardlyMore * best.validation_rms_mm) return false;
-  return one.causes >= kManyCauses || is_within_one_standard_error(errors[point], errors[front.best]);
+  if (one.causes >= kManyCauses) return one.validation_rms_mm <= kMoreOfMany * best.validation_rms_mm;
+  return one.validation_rms_mm <= kHardlyMore * best.validation_rms_mm &&
+         is_within_one_standard_error(errors[point], errors[front.best]);
 }
 
 /// Whether there is a cause by the loop's tests and by the validation poses: the choice is then of how many.

@@ -11,7 +11,7 @@
 namespace demecal::inline fitting {
 namespace {
 
-constexpr Eigen::Index kProductRows = 256, kFactorRows = 512;  // collected before they are reduced
+constexpr Eigen::Index kProductRows = 256, kFactorRows = 1024;  // collected before they are reduced
 
 }  // namespace
 

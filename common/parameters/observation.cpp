@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "effects/arm_state.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline parameters {
@@ -32,13 +33,12 @@ void scale_residual(const Eigen::VectorXd& all, const MeasuredPose& pose, const 
 }  // namespace
 
 std::vector<Observation> observe(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
-  std::vector<Observation> observations;
-  observations.reserve(poses.size());
-  for (const std::size_t pose : poses) {
-    const MeasuredPose& measured = data.poses[pose];
-    observations.push_back(
-        {pose, robot.corrected_joints(measured.joints), robot.motions(Stop(measured), measured.target)});
-  }
+  std::vector<Observation> observations(poses.size());
+  in_batches(poses.size(), [&](std::size_t i) {
+    const MeasuredPose& measured = data.poses[poses[i]];
+    observations[i] = {poses[i], robot.corrected_joints(measured.joints),
+                       robot.motions(Stop(measured), measured.target)};
+  });
   return observations;
 }
 

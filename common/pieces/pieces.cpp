@@ -1,5 +1,6 @@
 #include "pieces/pieces.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace demecal::inline pieces {
@@ -12,6 +13,14 @@ thread_local PieceRunner* runner_of_thread = nullptr;
 void in_pieces(std::size_t count, const Piece& piece) {
   if (runner_of_thread != nullptr && count > 1) return runner_of_thread->run(count, piece);
   for (std::size_t i = 0; i < count; ++i) piece(i);
+}
+
+void in_batches(std::size_t count, const Piece& each) {
+  constexpr std::size_t kAtATime = 100;
+  in_pieces((count + kAtATime - 1) / kAtATime, [&](std::size_t batch) {
+    const std::size_t end = std::min((batch + 1) * kAtATime, count);
+    for (std::size_t i = batch * kAtATime; i < end; ++i) each(i);
+  });
 }
 
 RunPiecesBy::RunPiecesBy(PieceRunner& runner) : before_(std::exchange(runner_of_thread, &runner)) {}

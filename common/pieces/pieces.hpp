@@ -21,6 +21,9 @@ class PieceRunner {
 /// that there are the same bits however many run at once: pieces write to places of their own.
 void in_pieces(std::size_t count, const Piece& piece);
 
+/// The same for what is quick: a hundred to a piece.
+void in_batches(std::size_t count, const Piece& each);
+
 /// While it lives, the calling thread's pieces are run by `runner`, which has to live as long.
 class RunPiecesBy {
  public:

@@ -14,6 +14,7 @@
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
+#include "pieces/pieces.hpp"
 
 namespace demecal::inline prediction {
 namespace {
@@ -147,21 +148,19 @@ CorrectedRobot with_own_contacts(CorrectedRobot robot, const DataSet& data) {
 
 std::vector<double> tool_errors_m(const CorrectedRobot& robot, const DataSet& data,
                                   std::span<const std::size_t> poses) {
-  if (!has_contacts(data)) {
-    std::vector<double> errors_m;
-    for (const std::size_t pose : poses) errors_m.push_back(tool_error_m(robot, data, data.poses[pose]));
+  const auto errors_of = [&](const CorrectedRobot& placed) {
+    std::vector<double> errors_m(poses.size());
+    in_batches(poses.size(), [&](std::size_t i) { errors_m[i] = tool_error_m(placed, data, data.poses[poses[i]]); });
     return errors_m;
-  }
+  };
+  if (!has_contacts(data)) return errors_of(robot);
   std::set<ContactGroup> groups;
   for (const std::size_t pose : poses)
     if (!data.poses[pose].contact.empty()) groups.insert(group_of(data.poses[pose]));
   std::vector<std::size_t> members;
   for (const std::size_t pose : all_poses(data))
     if (groups.contains(group_of(data.poses[pose]))) members.push_back(pose);
-  const CorrectedRobot placed = with_own_contacts(robot, data, members);
-  std::vector<double> errors_m;
-  for (const std::size_t pose : poses) errors_m.push_back(tool_error_m(placed, data, data.poses[pose]));
-  return errors_m;
+  return errors_of(with_own_contacts(robot, data, members));
 }
 
 std::vector<double> tool_errors_m(const CorrectedRobot& robot, const std::vector<Eigen::Isometry3d>& predicted,

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace demecal::inline random {
 namespace {
@@ -45,13 +46,13 @@ double RandomStream::normal() {
   return radius * std::cos(2.0 * std::numbers::pi * real());
 }
 
-std::vector<RandomStream> successive(std::size_t count, std::uint64_t numbers, RandomStream& random) {
-  std::vector<RandomStream> streams;
-  for (std::size_t i = 0; i < count; ++i) {
-    streams.push_back(random);
-    random.skip(numbers);
+void RandomStream::normals(std::span<double> values) {
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    const double radius = std::sqrt(-2.0 * std::log1p(-real()));
+    const double angle_rad = 2.0 * std::numbers::pi * real();
+    values[i] = radius * std::cos(angle_rad);
+    if (i + 1 < values.size()) values[i + 1] = radius * std::sin(angle_rad);
   }
-  return streams;
 }
 
 }  // namespace demecal::inline random

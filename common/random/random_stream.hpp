@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <random>
-#include <vector>
+#include <span>
 
 namespace demecal::inline random {
 
@@ -23,6 +23,11 @@ class RandomStream {
   bool chance(double probability) { return real() < probability; }
   /// Standard normal (Box and Muller). Two numbers.
   double normal();
+  /// As many of them, each pair from two numbers: an odd last one takes two.
+  void normals(std::span<double> values);
+  /// One number, to name further streams by: what is made in pieces, by whichever thread and in any order, is drawn
+  /// from RandomStream{name, number of the piece}.
+  std::uint64_t name() { return draw(); }
 
   /// Numbers drawn so far: a stream of the same name that skips as many goes on as this one does.
   std::uint64_t drawn() const { return drawn_; }
@@ -34,9 +39,5 @@ class RandomStream {
   std::mt19937_64 engine_;
   std::uint64_t drawn_ = 0;
 };
-
-/// `count` streams, each of which goes on where the one before has given `numbers`: what is drawn by pieces is what one
-/// stream gives. `random` goes on after the last.
-std::vector<RandomStream> successive(std::size_t count, std::uint64_t numbers, RandomStream& random);
 
 }  // namespace demecal::inline random

@@ -11,6 +11,7 @@
 #include "effects/effect.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/posterior.hpp"
+#include "pieces/pieces.hpp"
 #include "random/distributions.hpp"
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"
@@ -84,14 +85,15 @@ ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data) {
 std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
                                         const CorrectedRobot* before) {
   constexpr double kOutside = 1.1;  ///< less is not worth a flag
-  std::vector<PoseErrorEntry> poses;
+  std::vector<PoseErrorEntry> poses(data.poses.size());
   std::vector<std::size_t> all(data.poses.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const std::vector<double> after_m = tool_errors_m(robot, data, all);
   const std::vector<double> before_m = before == nullptr ? std::vector<double>{} : tool_errors_m(*before, data, all);
-  for (const std::size_t i : all) {
+  in_batches(poses.size(), [&](std::size_t i) {
     const MeasuredPose& pose = data.poses[i];
-    PoseErrorEntry entry{pose.pose_id, pose.target, std::string(to_string(pose.set)), {}, {}, {}};
+    PoseErrorEntry& entry = poses[i];
+    entry = {pose.pose_id, pose.target, std::string(to_string(pose.set)), {}, {}, {}};
     const double widened = extrapolation(data.robot.chain, model.measured, pose.joints);
     if (before != nullptr) entry.before_mm = if_finite(millimetres(before_m[i]));
     entry.after_mm = if_finite(millimetres(after_m[i]));
@@ -99,8 +101,7 @@ std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedMod
       entry.interval95_mm =
           if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose, widened)));
     if (widened > kOutside) entry.flags.emplace_back("outside_measured");
-    poses.push_back(std::move(entry));
-  }
+  });
   return poses;
 }
 

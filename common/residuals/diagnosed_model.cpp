@@ -11,6 +11,7 @@
 #include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
+#include "pieces/pieces.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 
@@ -30,8 +31,8 @@ void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedR
                            const std::vector<ArmState>& states, Prior& prior) {
   constexpr double kUsualMotion = 2e-3;  ///< rad or m
   std::vector<std::vector<double>> squares(robot.effects.size());
-  std::vector<UnitMotion> motions;
-  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
+  in_pieces(robot.effects.size(), [&](std::size_t i) {
+    std::vector<UnitMotion> motions;
     squares[i].assign(law_of(robot.effects[i]).coefficients(robot.effects[i], described).size(), 0.0);
     for (const ArmState& state : states) {
       motions.clear();
@@ -40,7 +41,7 @@ void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedR
         squares[i][static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
       }
     }
-  }
+  });
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k].kind != ParameterId::Kind::effect) continue;
     const auto effect = static_cast<std::size_t>(ids[k].index),

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <iterator>
 #include <map>
 #include <utility>
 
 #include "decompositions/decompositions.hpp"
-#include "pieces/pieces.hpp"
 
 namespace demecal::inline residuals {
 namespace {
@@ -192,51 +192,50 @@ NullNoise::NullNoise(const ResidualField& field, const Projection& model) : fiel
     for (double& length : lengths) length *= larger;
 }
 
-NullNoise::Rows NullNoise::draw(RandomStream& random) const {
-  Rows drawn{Eigen::VectorXd(field_.rows()), Eigen::VectorXd::Zero(model_.prior_residual().size())};
+Eigen::VectorXd NullNoise::draw_fitted(RandomStream& random) const {
   std::map<Eigen::Index, std::vector<double>> dealt = lengths_;
   for (auto& [count, lengths] : dealt)
     for (std::size_t i = lengths.size(); i > 1; --i) std::swap(lengths[i - 1], lengths[random.index(i)]);
+  Eigen::VectorXd drawn(field_.rows());
+  random.normals({drawn.data(), static_cast<std::size_t>(drawn.size())});
   for (std::size_t pose = 0; pose < field_.poses.size(); ++pose) {
-    auto rows = drawn.fitted.segment(field_.first_row[pose], field_.rows_of_pose(pose));
+    auto rows = drawn.segment(field_.first_row[pose], field_.rows_of_pose(pose));
     if (field_.root_weight[pose] <= 0.0) {
       rows.setZero();
       continue;
     }
-    for (double& value : rows) value = random.normal();
     std::vector<double>& lengths = dealt[rows.size()];
     rows *= lengths.back() / std::max(rows.norm(), 1e-300);
     lengths.pop_back();
   }
-  for (Eigen::Index i = 0; i < drawn.beliefs.size(); ++i)
-    if (model_.has_prior()[static_cast<std::size_t>(i)]) drawn.beliefs[i] = belief_deviations_[i] * random.normal();
   return drawn;
 }
 
-/// Of a stream, that draw() takes.
-std::uint64_t NullNoise::numbers_of_draw() const {
-  std::uint64_t numbers = 0;
-  for (const auto& [rows, lengths] : lengths_)
-    numbers += (lengths.size() - 1) + 2 * static_cast<std::uint64_t>(rows) * lengths.size();
-  for (const bool believed : model_.has_prior()) numbers += believed ? 2 : 0;
-  return numbers;
+Eigen::VectorXd NullNoise::draw_beliefs(RandomStream& random) const {
+  Eigen::VectorXd drawn = Eigen::VectorXd::Zero(model_.prior_residual().size());
+  for (Eigen::Index i = 0; i < drawn.size(); ++i)
+    if (model_.has_prior()[static_cast<std::size_t>(i)]) drawn[i] = belief_deviations_[i] * random.normal();
+  return drawn;
 }
 
-std::vector<NullNoise::Rows> NullNoise::draw(std::size_t count, RandomStream& random) const {
-  std::vector<RandomStream> streams = successive(count, numbers_of_draw(), random);
-  std::vector<Rows> drawn(count);
-  in_pieces(count, [&](std::size_t i) { drawn[i] = draw(streams[i]); });
-  return drawn;
+NullNoise::Draws NullNoise::draw(Eigen::Index count, RandomStream& random) const {
+  constexpr Eigen::Index kRowsAtATime = 512;  // that lie near the processor together
+  Eigen::MatrixXd fitted(field_.rows(), count), beliefs(model_.prior_residual().size(), count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    fitted.col(i) = draw_fitted(random);
+    beliefs.col(i) = draw_beliefs(random);
+  }
+  Draws draws{RowMatrix(fitted.rows(), count), beliefs};
+  for (Eigen::Index first = 0; first < fitted.rows(); first += kRowsAtATime) {
+    const Eigen::Index rows = std::min(kRowsAtATime, fitted.rows() - first);
+    draws.fitted.middleRows(first, rows) = fitted.middleRows(first, rows);
+  }
+  return draws;
 }
 
 Eigen::MatrixXd NullNoise::residuals(Eigen::Index count, const std::vector<Eigen::Index>& rows,
                                      RandomStream& random) const {
-  RowMatrix fitted(field_.rows(), count), beliefs(model_.prior_residual().size(), count);
-  const std::vector<Rows> drawn = draw(static_cast<std::size_t>(count), random);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    fitted.col(i) = drawn[static_cast<std::size_t>(i)].fitted;
-    beliefs.col(i) = drawn[static_cast<std::size_t>(i)].beliefs;
-  }
+  const auto [fitted, beliefs] = draw(count, random);
   const Eigen::MatrixXd along =
       transposed_product(model_.basis(), fitted) + transposed_product(model_.prior_basis(), beliefs);
   Eigen::MatrixXd left = fitted(rows, Eigen::all) - product(model_.basis()(rows, Eigen::all), along);

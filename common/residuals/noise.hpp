@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <span>
 #include <vector>
@@ -36,19 +35,18 @@ class NullNoise {
  public:
   NullNoise(const ResidualField& field, const Projection& model);
 
-  /// Before the model is fitted to it.
-  struct Rows {
-    Eigen::VectorXd fitted, beliefs;
+  /// Before the model is fitted to them; a column each.
+  struct Draws {
+    RowMatrix fitted, beliefs;
   };
-  /// `count` draws.
-  std::vector<Rows> draw(std::size_t count, RandomStream& random) const;
+  Draws draw(Eigen::Index count, RandomStream& random) const;
   /// What the model leaves, in `rows` of the field, of `count` draws, each of the residual's sum of squares (all rows
   /// and beliefs included): rows x count.
   Eigen::MatrixXd residuals(Eigen::Index count, const std::vector<Eigen::Index>& rows, RandomStream& random) const;
 
  private:
-  Rows draw(RandomStream& random) const;
-  std::uint64_t numbers_of_draw() const;
+  Eigen::VectorXd draw_fitted(RandomStream& random) const;
+  Eigen::VectorXd draw_beliefs(RandomStream& random) const;
 
   const ResidualField& field_;
   const Projection& model_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -22,7 +23,7 @@ namespace {
 
 constexpr std::size_t kMostPosesTested = 1000;
 constexpr std::size_t kFewLevels = 6;
-constexpr Eigen::Index kDrawsAtATime = 64;
+constexpr Eigen::Index kDrawsAtATime = 32;
 
 /// Pairs of poses that are neighbours in some circumstance.
 using Pairs = std::vector<std::array<std::size_t, 2>>;
@@ -189,13 +190,14 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual()(rows), chain), all);
   const NullNoise noise(field, model);
   Eigen::MatrixXd null(seen.size(), draws);
-  for (Eigen::Index done = 0; done < draws; done += kDrawsAtATime) {
-    const Eigen::MatrixXd drawn = noise.residuals(std::min<Eigen::Index>(kDrawsAtATime, draws - done), rows, random);
-    in_pieces(static_cast<std::size_t>(drawn.cols()), [&](std::size_t piece) {
-      const auto i = static_cast<Eigen::Index>(piece);
+  const std::uint64_t name = random.name();
+  in_pieces(static_cast<std::size_t>((draws + kDrawsAtATime - 1) / kDrawsAtATime), [&](std::size_t piece) {
+    const Eigen::Index done = static_cast<Eigen::Index>(piece) * kDrawsAtATime;
+    RandomStream own{name, piece};
+    const Eigen::MatrixXd drawn = noise.residuals(std::min<Eigen::Index>(kDrawsAtATime, draws - done), rows, own);
+    for (Eigen::Index i = 0; i < drawn.cols(); ++i)
       null.col(done + i) = agreements(joint_errors(field, poses, drawn.col(i), chain), all);
-    });
-  }
+  });
   const Eigen::VectorXd mean = null.rowwise().mean();
   const Eigen::VectorXd deviation =
       ((null.colwise() - mean).rowwise().squaredNorm() / std::max(1, draws - 1)).cwiseSqrt().cwiseMax(1e-12);

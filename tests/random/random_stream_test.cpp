@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
 namespace demecal {
 namespace {
 
@@ -56,16 +61,35 @@ TEST(RandomStream, FirstNumbersAreFixedForAllTime) {
   EXPECT_LT(first, 1.0);
 }
 
-TEST(RandomStream, IsDrawnByPiecesAsItIsWhole) {
-  RandomStream whole{5, 6}, parted{5, 6};
-  std::vector<RandomStream> pieces = successive(4, 7, parted);
-  for (RandomStream& piece : pieces) {
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(piece.normal(), whole.normal());
-    EXPECT_EQ(piece.index(1000), whole.index(1000));
-    for (int i = 0; i < 2; ++i) EXPECT_EQ(piece.real(), whole.real());
+TEST(RandomStream, ManyNormalsHaveUnitMomentsAndNothingInCommon) {
+  RandomStream random{44};
+  std::vector<double> draws(100001);
+  random.normals(draws);
+  EXPECT_EQ(random.drawn(), 100002U);
+  double sum = 0, squares = 0, fourths = 0, of_pairs = 0, of_neighbours = 0;
+  for (std::size_t i = 0; i + 2 < draws.size(); i += 2) {
+    sum += draws[i] + draws[i + 1];
+    squares += std::pow(draws[i], 2) + std::pow(draws[i + 1], 2);
+    fourths += std::pow(draws[i], 4) + std::pow(draws[i + 1], 4);
+    of_pairs += draws[i] * draws[i + 1];
+    of_neighbours += draws[i + 1] * draws[i + 2];
   }
-  EXPECT_EQ(parted.real(), whole.real());
-  EXPECT_EQ(parted.drawn(), whole.drawn());
+  EXPECT_NEAR(sum / 1e5, 0.0, 0.02);
+  EXPECT_NEAR(squares / 1e5, 1.0, 0.03);
+  EXPECT_NEAR(fourths / 1e5, 3.0, 0.2);
+  EXPECT_NEAR(of_pairs / 5e4, 0.0, 0.02);
+  EXPECT_NEAR(of_neighbours / 5e4, 0.0, 0.02);
+}
+
+TEST(RandomStream, GivesNamesToStreamsOfTheirOwn) {
+  RandomStream random{5, 6}, same{5, 6};
+  const std::uint64_t name = random.name();
+  EXPECT_EQ(name, same.name());
+  EXPECT_NE(name, random.name());
+  RandomStream first{name, 0}, second{name, 1};
+  int equal = 0;
+  for (int i = 0; i < 1000; ++i) equal += first.index(1000) == second.index(1000);
+  EXPECT_LT(equal, 15);
 }
 
 }  // namespace
