@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string_view>
+#include <vector>
 
 #include "data/columns.hpp"
 #include "data/csv.hpp"
@@ -35,21 +37,42 @@ std::pair<std::string, double> shown_unit(const std::string& unit) {
   return {unit, 1.0};
 }
 
-std::string what_to_do_about(const ChangeCause& cause, const std::string& model_file) {
+std::string named_joints(const ChangeReport& change) {
+  std::set<int> joints;
+  for (const ChangeCause& cause : change.found)
+    if (law_of(cause.effect).subject() == Subject::joint) joints.insert(cause.effect.joint + 1);
+  if (joints.empty()) return {};
+  return fmt::format("joint{} {}", joints.size() > 1 ? "s" : "", fmt::join(joints, " and "));
+}
+
+/// Of everything that was found, the arm before its base.
+std::string what_to_do_about_found(const ChangeReport& change, const std::string& model_file) {
+  const auto is_of = [&](Subject subject) {
+    return std::ranges::any_of(change.found,
+                               [&](const ChangeCause& cause) { return law_of(cause.effect).subject() == subject; });
+  };
   const std::string update = "or bring the model up to date: demecal diagnose DATASET.yaml --prior " + model_file;
-  switch (law_of(cause.effect).subject()) {
-    case Subject::instrument:
-      return "The robot itself is as it was: find the base's frame again where programs rely on it, " + update + ".";
-    case Subject::tool:
-      return "Look at the tool and its target: straighten or exchange it, or measure its tool point again, " + update +
-             ".";
-    case Subject::joint:
-      break;
-  }
+  const std::string joints = named_joints(change);
+  std::vector<std::string> advice;
+  if (!joints.empty())
+    advice.push_back("Look at " + joints +
+                     ": master it again where its zero has moved, have its gear looked at where its lost motion has "
+                     "grown");
+  if (is_of(Subject::tool))
+    advice.push_back("Look at the tool and its target: straighten or exchange it, or measure its tool point again");
+  if (advice.empty())
+    advice.push_back("The robot itself is as it was: find the base's frame again where programs rely on it");
+  return fmt::format("{}, {}.", fmt::join(advice, ". "), update);
+}
+
+/// What was found is not all of it, and may be another thing altogether.
+std::string what_to_do_about_more(const ChangeReport& change, const std::string& model_file) {
+  const std::string joints = named_joints(change);
   return fmt::format(
-      "Look at joint {}: master it again where its zero has moved, have its gear looked at where its lost "
-      "motion has grown, {}.",
-      cause.effect.joint + 1, update);
+      "What is named explains a part only: {:.2g} mm (rms) are left, more than noise. A link, a bearing or something "
+      "else has changed beside it or in its place, or instrument, base or tool were moved between the poses: {}"
+      "measure 30 poses or more and run demecal diagnose DATASET.yaml --prior {}.",
+      millimetres(change.left_m), joints.empty() ? "" : "before work on " + joints + ", ", model_file);
 }
 
 std::string what_to_do_about_unnamed(const ChangeReport& change, const std::string& model_file) {
@@ -71,7 +94,7 @@ std::string what_to_do(const ChangeReport& change, const std::string& model_file
   if (change.found.empty())
     return change.set_up_anew ? "The robot itself is as it was; its base was found again in the instrument's new frame."
                               : "Nothing needs to be done.";
-  return what_to_do_about(change.found.back(), model_file);
+  return change.more ? what_to_do_about_more(change, model_file) : what_to_do_about_found(change, model_file);
 }
 
 Json cause_json(const ChangeCause& cause, const Robot& robot) {
@@ -106,7 +129,8 @@ std::string answer(const ChangeReport& change) {
   if (change.verdict == ChangeVerdict::registration)
     return change.set_up_anew ? "The robot is as it was; the instrument was set up anew."
                               : "The robot is as it was, but its base stands elsewhere in the instrument's frame.";
-  return change.unnamed ? "The robot has changed, by something that cannot be named." : "The robot has changed.";
+  if (change.unnamed) return "The robot has changed, by something that cannot be named.";
+  return change.more ? "The robot has changed, and not all of it can be named." : "The robot has changed.";
 }
 
 }  // namespace
@@ -182,6 +206,7 @@ CheckRecord check_record(const ChangeReport& change, const DataSet& data, const 
   std::string causes;
   for (const ChangeCause& cause : change.found) causes += (causes.empty() ? "" : " and ") + to_string(cause.effect);
   if (change.unnamed) causes = "cannot be named";
+  if (change.more) causes += " and more";
   return {.date = date,
           .model = model_file,
           .data = data.name,

@@ -165,10 +165,10 @@ class ChangeSearch {
     ChangeRows rows = all;
     report_.found.clear();
     report_.verdict = ChangeVerdict::unchanged;
-    report_.unnamed = false;
+    report_.unnamed = report_.more = false;
     const auto n = static_cast<double>(rows.values.size());
     report_.p_any = fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
-    report_.strain = std::sqrt(rows.values.squaredNorm() / n);
+    report_.strain = strain_of(rows);
     report_.strain_limit = std::sqrt(fisher_quantile(1.0 - kErrorOfAny, n, known_rows()));
     constexpr int kMostCauses = 3;
     for (int step = 0; step < kMostCauses; ++step) {
@@ -180,13 +180,14 @@ class ChangeSearch {
       project(rows, causes.front().effect);
     }
     report_.left_m = report_.found.empty() ? report_.error_m : rms(rows.values, all);
-    const bool explained = explains(rows);
-    if (!explained) report_.found.clear();
+    if (!explains(rows)) report_.found.clear();
     for (const ChangeCause& cause : report_.found)
       report_.verdict =
           std::max(report_.verdict, cause.is_registration ? ChangeVerdict::registration : ChangeVerdict::changed);
     if (report_.set_up_anew) report_.verdict = std::max(report_.verdict, ChangeVerdict::registration);
-    if (report_.found.empty() && (!explained || report_.p_any < kErrorOfAny)) {
+    report_.more = !report_.found.empty() && strain_of(rows) > report_.strain_limit;
+    if (report_.more) report_.verdict = ChangeVerdict::changed;
+    if (report_.found.empty() && report_.p_any < kErrorOfAny) {
       report_.verdict = ChangeVerdict::changed;
       report_.unnamed = true;
       report_.left_m = report_.error_m;
@@ -194,11 +195,14 @@ class ChangeSearch {
     return fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
   }
 
+  static double strain_of(const ChangeRows& rows) {
+    return std::sqrt(rows.values.squaredNorm() / static_cast<double>(rows.values.size()));
+  }
+
   /// Whether the causes found are what happened: a joint's sign, or rows of two sets, look like a little of everything.
   bool explains(const ChangeRows& left) const {
     constexpr double kFar = 1.5, kMost = 0.5;
-    const double strain = std::sqrt(left.values.squaredNorm() / static_cast<double>(left.values.size()));
-    return strain < kFar * report_.strain_limit || report_.left_m < kMost * report_.error_m;
+    return strain_of(left) < kFar * report_.strain_limit || report_.left_m < kMost * report_.error_m;
   }
 
   /// Takes away from all rows what a cause explains.

@@ -52,12 +52,14 @@ struct ChangeReport {
   std::vector<ChangeCause> tried;     ///< all, the likeliest first
   std::vector<std::string> not_testable;  ///< sentences
   bool unnamed = false;                   ///< changed, but by nothing that was tried
+  bool more = false;                      ///< what was found leaves more than an unchanged robot would
 };
 
 /// Holds the model's predictions against all poses of `data` that measured positions or distances, repeats of one as
 /// their mean. Errors by the model's covariance and its noise are expected; what explains more than 5 % of such samples
 /// would (of all causes tried) has changed. Causes are added one after another; where they leave most of errors that
-/// are far beyond what is expected, none is named. Poses of the names `suspects` are left out where they are a quarter
+/// are far beyond what is expected, none is named; where they leave more than one unchanged robot in a thousand would,
+/// the robot has changed whatever they are. Poses of the names `suspects` are left out where they are a quarter
 /// at most. Where joints are written coarsely, and errors are left that nothing explains, their rounding counts as
 /// noise. Throws InputError where the poses are too few, or are not of this arm.
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects = {});

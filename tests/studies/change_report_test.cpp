@@ -40,5 +40,25 @@ TEST(ChangeReport, TakesErrorsThatNoRobotComesToForThoseOfTheData) {
   EXPECT_TRUE(says(change, "Look at the rows first"));
 }
 
+ChangeCause zero_of(int joint) {
+  ChangeCause cause;
+  cause.effect.kind = "joint_offset";
+  cause.effect.joint = joint - 1;
+  cause.effect.values = {1e-3};
+  return cause;
+}
+
+TEST(ChangeReport, AdvisesOnEverythingThatWasFound) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  change.found = {zero_of(2), zero_of(3)};
+  EXPECT_TRUE(says(change, "Look at joints 2 and 3:"));
+  change.more = true;
+  change.left_m = 1.5e-4;
+  EXPECT_TRUE(says(change, "not all of it can be named"));
+  EXPECT_TRUE(says(change, "0.15 mm (rms) are left"));
+  EXPECT_TRUE(says(change, "before work on joints 2 and 3"));
+}
+
 }  // namespace
 }  // namespace demecal

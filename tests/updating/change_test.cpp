@@ -72,6 +72,23 @@ TEST(Change, OfTheBaseAloneIsToldFromOneOfTheRobot) {
   EXPECT_EQ(anew.verdict, ChangeVerdict::registration);
 }
 
+/// A bent link is nothing that few poses can name; what is like it must not be all that is said.
+TEST(Change, OfALinkIsNoMoveOfTheBaseAndNotAllExplained) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const CalibratedModel model = model_of_seed(seed);
+    CorrectedRobot now = true_wrist(seed);
+    now.sensor_from_base.translation() += Eigen::Vector3d(1.2e-3, -1.4e-3, 1e-3);
+    const ChangeReport moved = find_change(model, measured_wrist(now, 20, 0, 500 + seed));
+    EXPECT_EQ(moved.verdict, ChangeVerdict::registration) << seed;
+    EXPECT_FALSE(moved.more) << seed;
+    now.chain.joints[seed % 3 + 1].a_m += 4e-4;
+    now.chain.joints[seed % 3 + 2].alpha_rad += 5e-4;
+    const ChangeReport bent = find_change(model, measured_wrist(now, 20, 0, 500 + seed));
+    EXPECT_EQ(bent.verdict, ChangeVerdict::changed) << seed << ", strain " << bent.strain;
+    EXPECT_TRUE(bent.more || bent.unnamed) << seed;
+  }
+}
+
 TEST(Change, OfTheToolIsNamed) {
   const CalibratedModel model = model_of_seed(2);
   CorrectedRobot now = true_wrist(2);
