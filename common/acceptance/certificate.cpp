@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "acceptance/remarks.hpp"
 #include "acceptance/touched_lengths.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
@@ -82,19 +83,26 @@ SetErrors errors_of(const CorrectedRobot& robot, const DataSet& data, const Cert
   return set_errors(error_figures(robot, data, rows));
 }
 
-/// The standard deviation of a pose's mean measurement, m per axis: what its repeats show, shared out among them.
-double mean_noise_m(const CalibratedModel& model, const std::vector<AttainedPose>& poses) {
+/// Of one measurement, m per axis: what repeats of the judged poses show from one side; nothing without any.
+std::optional<double> noise_of_repeats_m(const DataSet& data, const std::vector<AttainedPose>& poses) {
+  double squares_m2 = 0.0, freedom = 0.0;
+  for (const AttainedPose& pose : poses) {
+    if (!pose.has_position || pose.rows.size() < 2) continue;
+    for (const std::size_t row : pose.rows) squares_m2 += (*data.poses[row].position_m - pose.attained_m).squaredNorm();
+    freedom += 3.0 * static_cast<double>(pose.rows.size() - 1);
+  }
+  if (freedom == 0.0) return std::nullopt;
+  return std::sqrt(squares_m2 / freedom);
+}
+
+/// The standard deviation of a pose's mean measurement, m per axis. Without repeats it is what the model's fit left,
+/// which holds the model's own error too.
+double mean_noise_m(const CalibratedModel& model, const DataSet& data, const std::vector<AttainedPose>& poses) {
   if (!model.interval) return 0.0;
   std::size_t fewest = std::numeric_limits<std::size_t>::max();
   for (const AttainedPose& pose : poses) fewest = std::min(fewest, pose.rows.size());
-  const double noise_m = poses.front().has_position ? model.interval->noise_m : model.interval->distance_noise_m;
-  return noise_m / std::sqrt(static_cast<double>(fewest));
-}
-
-std::vector<double> accuracies(const std::vector<AttainedPose>& poses) {
-  std::vector<double> errors_m;
-  for (const AttainedPose& pose : poses) errors_m.push_back(pose.accuracy_m);
-  return errors_m;
+  const double left_m = poses.front().has_position ? model.interval->noise_m : model.interval->distance_noise_m;
+  return noise_of_repeats_m(data, poses).value_or(left_m) / std::sqrt(static_cast<double>(fewest));
 }
 
 struct BothArms {
@@ -123,45 +131,6 @@ std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const D
   return poses;
 }
 
-void add_remarks(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run, Certificate& certificate) {
-  std::vector<std::string>& remarks = certificate.remarks;
-  const std::string& set = certificate.judged_set;
-  if (set != "accept") {
-    remarks.push_back("The data hold no accept poses: the " + set + " poses are judged, " +
-                      (set == "validation" ? "which took part in the choice of the model."
-                                           : "to which the model was fitted: its error elsewhere may be larger."));
-  }
-  if (set == "accept" && data.sha256 != model.data_sha256)
-    remarks.emplace_back("These poses were not measured in the data set that the model was calibrated with.");
-  const bool touches = certificate.words.of_one == kJudgedLengths.of_one;
-  if (touches)
-    remarks.emplace_back(
-        "No instrument saw the tool: judged are known lengths between points that the arm touched, one posture at each "
-        "end. Errors that leave lengths as they are, such as where the arm stands, are not seen.");
-  if (!touches && !run.fields.instrument_uncertainty_m)
-    remarks.emplace_back(
-        "The instrument's uncertainty is not stated (instrument_uncertainty_mm): errors of the instrument that all "
-        "poses share are not in the guard band.");
-  if (certificate.judgement.assumes_normal) {
-    remarks.push_back(
-        fmt::format("With fewer than {} poses the upper limit assumes that errors are normally distributed along one "
-                    "line.",
-                    fewest_without_assumption()));
-  }
-  if (run.refit_base)
-    remarks.emplace_back(
-        "Base and tool were fitted to this data set's poses that are not judged before anything else.");
-  if (certificate.date_is_of_run)
-    remarks.push_back("The date of measurement is not stated; the date of this document, " + run.today +
-                      ", stands in its place.");
-  for (const UnappliedEffect& one : unapplied_effects(model.robot, data)) remarks.push_back(one.sentence + ".");
-  if (!model.posterior || !model.interval)
-    remarks.emplace_back("The model file is of an older version and states no uncertainty.");
-  if (data.excluded.size() > 0)
-    remarks.push_back(
-        fmt::format("{} measurements are excluded by name in the data set's file.", data.excluded.size()));
-}
-
 }  // namespace
 
 std::vector<Eigen::Vector3d> arm_points(const CorrectedRobot& robot, const MeasuredPose& pose) {
@@ -181,13 +150,44 @@ std::vector<std::size_t> judged_poses(const DataSet& data) {
   return {};
 }
 
-CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot) {
-  constexpr std::size_t kFewest = 4;
+bool is_calibrated_with(const CalibratedModel& model, const DataSet& data) {
+  const auto is_it = [&data](const Station& station) { return station.sha256 == data.sha256; };
+  return data.sha256 == model.data_sha256 || std::ranges::any_of(model.stations, is_it);
+}
+
+CertificateFields stated_fields(const CertificateFields& of_data, const CalibratedModel& model, const DataSet& data,
+                                std::vector<std::string>& notes) {
+  CertificateFields of_model = model.certificate;
+  if (is_calibrated_with(model, data)) return merged(of_data, of_model);
+  for (const char* const of_the_day : {"certificate_number", "date", "operator", "place", "environment", "remarks"})
+    of_model.texts.erase(of_the_day);
+  const std::string data_serial = of_data.text("serial_number"), model_serial = of_model.text("serial_number");
+  if (!data_serial.empty() && !model_serial.empty() && data_serial != model_serial)
+    notes.push_back("The data are of the robot with serial number " + data_serial + ", the model is of that with " +
+                    model_serial + ".");
+  std::vector<std::string> taken;
+  for (const CertificateField& field : kCertificateFields)
+    if (of_data.text(field.key).empty() && !of_model.text(field.key).empty()) taken.emplace_back(field.title);
+  if (!of_data.instrument_uncertainty_m && of_model.instrument_uncertainty_m)
+    taken.emplace_back("Uncertainty of the instrument");
+  if (!taken.empty())
+    notes.push_back(fmt::format("The data do not state and the model's job does: {}.", fmt::join(taken, ", ")));
+  return merged(of_data, of_model);
+}
+
+std::vector<std::size_t> placing_poses(const DataSet& data) {
   const PoseSet judged = data.poses[judged_poses(data).front()].set;
-  CertifiedRows rows = poses_of(data, PoseSet::calibration);
-  if (rows.size() < kFewest && judged == PoseSet::accept) rows = poses_of(data, PoseSet::validation);
-  if (rows.size() < kFewest) rows = judged_poses(data);
-  const Fit fit = fit_registration(data, rows, base_and_tool, robot);
+  for (const PoseSet set : {PoseSet::calibration, PoseSet::validation}) {
+    if (set == judged) break;
+    std::vector<std::size_t> rows = poses_of(data, set);
+    if (rows.size() >= kFewestPlacingPoses) return rows;
+  }
+  return {};
+}
+
+CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot) {
+  const CertifiedRows placing = placing_poses(data);
+  const Fit fit = fit_registration(data, placing.empty() ? judged_poses(data) : placing, base_and_tool, robot);
   if (fit.status != FitStatus::converged) throw InputError({data.file, 0}, "", fit.sentence);
   return fit.robot;
 }
@@ -221,6 +221,12 @@ Certificate stated(const CalibratedModel& model, const DataSet& data, const Cert
 /// Fills in what measured positions, or lengths from fixed points, tell.
 void judge_positions(const CalibratedModel& model, const DataSet& data, const CertifiedRows& rows,
                      const CertifiedRun& run, Certificate& certificate) {
+  if (run.refit_base && placing_poses(data).empty())
+    throw InputError(
+        {data.file, 0}, "--refit-base",
+        fmt::format("needs {} poses beside those that are judged, and the data hold none or fewer: what is "
+                    "fitted to the judged poses proves nothing of others",
+                    kFewestPlacingPoses));
   const DeclaredModel base_and_tool{.registration = true, .tool = model.declared.tool};
   const CorrectedRobot after =
       run.refit_base ? refitted(data, {.registration = true, .tool = true}, model.robot) : model.robot;
@@ -234,10 +240,17 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
   certificate.characteristics = characteristics(data, poses, after);
   if (!run.fields.instrument_uncertainty_m) certificate.missing.emplace_back("Uncertainty of the instrument");
   const double instrument_m = run.fields.instrument_uncertainty_m.value_or(0.0) / kCoverageFactor;
-  certificate.judgement = judge(accuracies(poses), run.tolerance_m, instrument_m, mean_noise_m(model, poses));
-  certificate.poses_to_decide = poses_to_decide(accuracies(poses), certificate.judgement);
-  certificate.poses = certified_poses(model, data, rows, {before, after}, run.tolerance_m);
-  certificate.uncertainty = uncertainty_of(model, data, rows, run.fields.instrument_uncertainty_m);
+  const std::vector<double> errors_m = largest_by_pose(data, poses);
+  certificate.judgement = judge(errors_m, run.tolerance_m, instrument_m, mean_noise_m(model, data, poses));
+  certificate.poses_to_decide = poses_to_decide(errors_m, certificate.judgement);
+  CalibratedModel placed = model;
+  if (placed.posterior)
+    placed.posterior =
+        with_turned_base(*std::move(placed.posterior),
+                         after.sensor_from_base.linear() * model.robot.sensor_from_base.linear().transpose());
+  placed.robot = after;
+  certificate.poses = certified_poses(placed, data, rows, {before, after}, run.tolerance_m);
+  certificate.uncertainty = uncertainty_of(placed, data, rows, run.fields.instrument_uncertainty_m);
   certificate.view = view_of(data, poses, after);
 }
 
@@ -252,7 +265,7 @@ Certificate make_certificate(const CalibratedModel& model, const DataSet& data, 
   } else {
     judge_positions(model, data, rows, run, certificate);
   }
-  add_remarks(model, data, run, certificate);
+  certificate.remarks = remarks_on(certificate, model, data, run);
   return certificate;
 }
 

@@ -22,9 +22,10 @@ namespace demecal::inline acceptance {
 struct CertifiedRun {
   CertificateFields fields;
   double tolerance_m = 0.0;
-  std::string today;         ///< YYYY-MM-DD, of the run
-  std::string model_sha256;  ///< of the bytes of the model file
-  bool refit_base = false;   ///< base and tool were fitted to the data's calibration poses first
+  std::string today;                 ///< YYYY-MM-DD, of the run
+  std::string model_sha256;          ///< of the bytes of the model file
+  bool refit_base = false;           ///< base and tool are fitted to the poses that are not judged first
+  std::vector<std::string> notes{};  ///< what was found of data and fields beforehand, sentences: they become remarks
 };
 
 /// A quantity of the conditions under which was measured, over the judged poses.
@@ -82,12 +83,27 @@ std::vector<Eigen::Vector3d> arm_points(const CorrectedRobot& robot, const Measu
 /// The poses judged: accept poses; without any validation poses, and so on.
 std::vector<std::size_t> judged_poses(const DataSet& data);
 
-/// The robot with base and tool fitted to the poses of the data that are not judged; to the judged ones where there are
-/// too few others. Throws InputError where they cannot be fitted.
+/// So many poses tell base and tool.
+inline constexpr std::size_t kFewestPlacingPoses = 4;
+/// Poses that are not judged, by which the arm can be placed: calibration poses or, where those are judged or too few,
+/// validation poses. None where there are too few of either.
+std::vector<std::size_t> placing_poses(const DataSet& data);
+
+/// The robot with base and tool fitted to placing_poses() or, where there are none, to the judged ones. Throws
+/// InputError where they cannot be fitted.
 CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot);
 
+/// Whether the data are those that the model was calibrated with, or one of the stations of these.
+bool is_calibrated_with(const CalibratedModel& model, const DataSet& data);
+
+/// What a certificate of `data` states: `of_data`, and what the model's job stated beside. Of other data than the
+/// model's own nothing that belongs to the day of a measurement is taken from there; what is taken is noted.
+CertificateFields stated_fields(const CertificateFields& of_data, const CalibratedModel& model, const DataSet& data,
+                                std::vector<std::string>& notes);
+
 /// Judges the positions that were measured or, where the judged poses only touch something, the known lengths between
-/// what they touch. Throws InputError where the data hold no pose with an error to judge.
+/// what they touch. Throws InputError where the data hold no pose with an error to judge, and where base and tool are
+/// to be fitted and there are no poses for that.
 Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run);
 
 /// "proved within 0.2 mm ..." in one sentence for whoever reads only one.

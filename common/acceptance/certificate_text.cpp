@@ -55,7 +55,7 @@ std::string verdict_sentence(const Certificate& certificate) {
   const Judgement& judged = certificate.judgement;
   const double tolerance_mm = millimetres(judged.tolerance_m);
   const std::string claim =
-      fmt::format("the {} is at most {:g} mm at {:.0f} % of {} like the {} {} {} judged here",
+      fmt::format("the {} is at most {:.10g} mm at {:.0f} % of {} like the {} {} {} judged here",
                   certificate.words.quantity, tolerance_mm, 100.0 * kAcceptedShare, certificate.words.poses,
                   judged.poses, certificate.judged_set, certificate.words.poses);
   switch (judged.verdict) {

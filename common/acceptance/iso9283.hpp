@@ -29,6 +29,10 @@ struct AttainedPose {
 std::vector<AttainedPose> attained_poses(const DataSet& data, std::span<const std::size_t> rows,
                                          const CorrectedRobot& robot);
 
+/// The largest error of every pose, over its targets and the sides it was approached from: poses of one id, or at the
+/// very same joints, are one and no independent evidence. In the order in which they first appear.
+std::vector<double> largest_by_pose(const DataSet& data, const std::vector<AttainedPose>& poses);
+
 /// One criterion: its value, or why the data cannot give it.
 struct Characteristic {
   std::string symbol, title;

@@ -61,7 +61,7 @@ std::string people(const Certificate& certificate) {
   if (certificate.fields.instrument_uncertainty_m) {
     rows += fact_row(
         "Uncertainty of the instrument",
-        fmt::format("U = {:g} mm (k = 2), as stated", millimetres(*certificate.fields.instrument_uncertainty_m)));
+        fmt::format("U = {:.10g} mm (k = 2), as stated", millimetres(*certificate.fields.instrument_uncertainty_m)));
   } else {
     rows += fact_row("Uncertainty of the instrument", "");
   }
@@ -78,7 +78,7 @@ std::string verdict(const Certificate& certificate) {
   const auto limit = [](const std::optional<double>& value_m) {
     return value_m ? fmt::format("{:.3f} mm", millimetres(*value_m)) : std::string("none with so few poses");
   };
-  std::string rows = fact_row("Tolerance", fmt::format("{:g} mm", millimetres(judged.tolerance_m)));
+  std::string rows = fact_row("Tolerance", fmt::format("{:.10g} mm", millimetres(judged.tolerance_m)));
   rows += fact_row(
       fmt::format("Error that {:.0f} % of the judged {} keep within", 100.0 * kAcceptedShare, certificate.words.poses),
       fmt::format("{:.3f} mm", millimetres(judged.error_m)));

@@ -75,7 +75,7 @@ std::string scale_bar(const SideView& place) {
   const double px = metres(length_mm) / place.metres_of(1.0);
   return fmt::format(
       "<path d=\"M10 {0} h{1:.1f}\" stroke=\"#1b232b\" stroke-width=\"1.5\"/><text x=\"{2:.1f}\" y=\"{3}\" "
-      "font-size=\"10\" fill=\"#1b232b\">{4:g} mm</text>\n",
+      "font-size=\"10\" fill=\"#1b232b\">{4:.10g} mm</text>\n",
       kPictureHeight - 8.0, px, 16.0 + px, kPictureHeight - 4.0, length_mm);
 }
 

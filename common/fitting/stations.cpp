@@ -149,31 +149,62 @@ CorrectedRobot with_tools_of_stations(CorrectedRobot robot, const DataSet& data)
   return robot;
 }
 
+namespace {
+
+/// The one of `known` that measured the data, or their first station's.
+std::vector<Station>::const_iterator first_of(const std::vector<Station>& known, const DataSet& data) {
+  const std::string& sha256 = data.stations.empty() ? data.sha256 : data.stations.front().sha256;
+  return std::ranges::find(known, sha256, &Station::sha256);
+}
+
+/// By the data's targets, what the model calls them, where it knows the station under another name.
+std::map<std::string, std::string> targets_at_first(const CorrectedRobot& robot, const std::vector<Station>& known,
+                                                    const DataSet& data) {
+  std::map<std::string, std::string> names;
+  const auto first = first_of(known, data);
+  if (first == known.end() || first == known.begin()) return names;
+  for (const MeasuredPose& pose : data.poses) {
+    const std::string there = target_at_station(first->name, pose.target);
+    if (pose.station.empty() && robot.tools.contains(there)) names.emplace(pose.target, there);
+  }
+  return names;
+}
+
+}  // namespace
+
 CorrectedRobot seen_from_stations(CorrectedRobot robot, const std::vector<Station>& known, const DataSet& data) {
   robot.stations.clear();
   if (known.empty() && data.stations.empty()) return robot;
-  const auto find = [&](const std::string& sha256) { return std::ranges::find(known, sha256, &Station::sha256); };
-  const auto first = find(data.stations.empty() ? data.sha256 : data.stations.front().sha256);
+  const auto first = first_of(known, data);
   Eigen::Isometry3d own_from_first = Eigen::Isometry3d::Identity();  // of the data's first station, from the model's
   if (first != known.end()) {
     own_from_first = first->first_from_own.inverse();
-    const std::string name = first == known.begin() ? "" : first->name;
     const std::map<std::string, Eigen::Isometry3d> tools = robot.tools;
-    for (const MeasuredPose& pose : data.poses) {
-      const auto tool = tools.find(target_at_station(name, pose.target));
-      if (pose.station.empty() && tool != tools.end()) robot.tools[pose.target] = tool->second;
-    }
+    for (const auto& [target, there] : targets_at_first(robot, known, data)) robot.tools[target] = tools.at(there);
   }
   robot.sensor_from_base = own_from_first * robot.sensor_from_base;
   for (std::size_t i = 1; i < data.stations.size(); ++i) {
     const Station& station = data.stations[i];
-    const auto found = find(station.sha256);
+    const auto found = std::ranges::find(known, station.sha256, &Station::sha256);
     if (found == known.end())
       throw InputError({data.file, 0}, station.name,
                        "is a station that the model does not know: give --refit-base, or evaluate its data set alone");
     robot.stations[station.name] = own_from_first * found->first_from_own * station.first_from_own.inverse();
   }
   return robot;
+}
+
+Posterior posterior_seen(const Posterior& posterior, const CorrectedRobot& robot, const CorrectedRobot& seen,
+                         const std::vector<Station>& known, const DataSet& data) {
+  const std::map<std::string, std::string> names = targets_at_first(robot, known, data);
+  Posterior there = posterior.without([&](const ParameterId& id) {
+    return id.is_of_tool() && names.contains(id.target) && names.at(id.target) != id.target;
+  });
+  for (const auto& [target, name] : names)
+    for (ParameterId& id : there.ids)
+      if (id.is_of_tool() && id.target == name) id.target = target;
+  return with_turned_base(std::move(there),
+                          seen.sensor_from_base.linear() * robot.sensor_from_base.linear().transpose());
 }
 
 }  // namespace demecal::inline fitting

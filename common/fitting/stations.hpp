@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline fitting {
@@ -35,5 +36,10 @@ CorrectedRobot with_tools_of_stations(CorrectedRobot robot, const DataSet& data)
 /// found, with the tools they had. Of a set that is no known station's, and of no further ones, it is `robot`. Throws
 /// InputError where `data` has a further station that is none of them.
 CorrectedRobot seen_from_stations(CorrectedRobot robot, const std::vector<Station>& known, const DataSet& data);
+
+/// What is known of the numbers of `robot`, whose posterior that is, as numbers of `seen`: of it where the base stands
+/// in the data's frame, with the tools that it has at the data's first station (see seen_from_stations).
+Posterior posterior_seen(const Posterior& posterior, const CorrectedRobot& robot, const CorrectedRobot& seen,
+                         const std::vector<Station>& known, const DataSet& data);
 
 }  // namespace demecal::inline fitting

@@ -71,6 +71,21 @@ double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot
 
 }  // namespace
 
+Posterior with_turned_base(Posterior posterior, const Eigen::Matrix3d& turn) {
+  using Kind = ParameterId::Kind;
+  for (const Kind kind : {Kind::base_translation, Kind::base_rotation}) {
+    Eigen::MatrixXd along = Eigen::MatrixXd::Zero(3, posterior.factor.cols());
+    const auto each = [&](const auto& visit) {
+      for (std::size_t i = 0; i < posterior.ids.size(); ++i)
+        if (posterior.ids[i].kind == kind) visit(static_cast<Eigen::Index>(i), posterior.ids[i].index);
+    };
+    each([&](Eigen::Index row, int axis) { along.row(axis) = posterior.factor.row(row); });
+    const Eigen::MatrixXd turned = turn * along;
+    each([&](Eigen::Index row, int axis) { posterior.factor.row(row) = turned.row(axis); });
+  }
+  return posterior;
+}
+
 Eigen::Matrix<double, 6, Eigen::Dynamic> pose_spread(const Posterior& posterior, const CorrectedRobot& robot,
                                                      const Stop& stop, const std::string& target) {
   const auto numbers = static_cast<Eigen::Index>(posterior.ids.size() + posterior.terms.size());

@@ -63,6 +63,10 @@ Posterior Posterior::without(const LeaveOut& leave_out) const {
   return rest;
 }
 
+/// The same knowledge where the base stands turned by `turn` in the frame of the measurements: the base's numbers are
+/// counted along that frame's axes, and what they share with the arm's numbers turns with them.
+Posterior with_turned_base(Posterior posterior, const Eigen::Matrix3d& turn);
+
 /// What a radius needs beside the model's posterior. Deviations are standard deviations per axis, m.
 struct PredictionInterval {
   double quantile = 0.0;          ///< of scores |error| / deviation; radii are so many deviations

@@ -48,13 +48,16 @@ std::string block(const Program& program, const Target& target, const CorrectedT
   const TargetFigures figures = target_figures(target, corrected, arm);
   text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg", figures.moved_mm, figures.turned_deg);
   if (corrected.error95_m)
-    text += fmt::format(", corrected to within ± {:.3f} mm (k = 2)", millimetres(*corrected.error95_m));
+    text +=
+        fmt::format(", {} within ± {:.3f} mm (k = 2)",
+                    corrected.command == corrected.nominal ? "left as programmed, which is reached to" : "corrected to",
+                    millimetres(*corrected.error95_m));
   text += '\n';
   const std::string names = heading(figures);
   if (names != last_heading) text += names;
   last_heading = names;
   text += row("nominal", figures.nominal) + row("corrected", figures.corrected) + row("difference", figures.difference);
-  for (const std::string& note : corrected.notes) text += "    " + note + '\n';
+  for (const std::string& direction : corrected.left) text += "    " + direction + '\n';
   return text;
 }
 
@@ -80,7 +83,7 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
     json["standard_uncertainty_mm"] = 0.5 * millimetres(*corrected.error95_m);
     json["coverage_factor"] = 2;
   }
-  json["left_as_programmed"] = corrected.notes;
+  json["left_as_programmed"] = corrected.left;
   if (target.is_pose()) json["turned_deg"] = figures.turned_deg;
   return json;
 }

@@ -52,13 +52,15 @@ Eigen::Isometry3d goal_of(const Target& target, const CommandModel& model, Corre
   const DeterminedPart turn =
       determined_part(correction.tail<3>(), covariance.bottomRightCorner<3, 3>(), kTurnWorthSaying);
   const Eigen::Matrix3d& flange = corrected.nominal_tool.linear();
+  corrected.left_m = (correction.head<3>() - position.applied).norm();
   if (position.deviation > 0.0) {
     const std::string deviation = fixed_text(millimetres(position.deviation), 2) + " mm";
     corrected.remarks.push_back(left_sentence("position along ", position, deviation, flange));
+    corrected.left.push_back(corrected.remarks.back());
   }
   if (turn.deviation > 0.0 && !(target.is_pose() && keeps_orientation(target))) {
     const std::string deviation = fixed_text(degrees(turn.deviation), 3) + " deg";
-    corrected.notes.push_back(left_sentence("orientation about ", turn, deviation, flange));
+    corrected.left.push_back(left_sentence("orientation about ", turn, deviation, flange));
   }
   goal.translation() += position.applied;
   goal.linear() = (rotation_of(turn.applied) * goal.linear()).eval();
@@ -130,8 +132,9 @@ CorrectedTarget correct_target(const Target& target, const CommandModel& model, 
   corrected.residual_m = solution.position_residual_m;
   corrected.residual_rad = solution.orientation_residual_rad;
   corrected.command_tool = model.nominal_tool(corrected.command);
-  corrected.error95_m = error95_m(model, stop);
   if (target.is_pose()) settle_position(target, model, goal.translation(), corrected);
+  corrected.error95_m = error95_m(model, stop);
+  if (corrected.error95_m) *corrected.error95_m += corrected.left_m + corrected.residual_m;
   return corrected;
 }
 

@@ -40,13 +40,15 @@ struct CorrectedTarget {
   JointVector inverse;           ///< the model's own, of the whole pose; `command` differs where an orientation is kept
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
   Eigen::Isometry3d goal;  ///< of the model's tool: the nominal pose, as far as the correction to it is determined
+  double left_m = 0.0;     ///< of the position's correction: what is not determined, and so not made
   double residual_m = 0.0, residual_rad = 0.0;  ///< of what was to be corrected, what the model predicts to be left
-  std::optional<double>
-      error95_m{};  ///< holds the real tool point about the goal 95 % of the time, without what is left
+  /// Holds the real tool point about where the program sends it 95 % of the time: what is known to be left of its error
+  /// is added.
+  std::optional<double> error95_m{};
   /// How far apart the real tool point may stand by the sides of approach that are not known; half is in error95_m.
   double unknown_side_m = 0.0;
   std::vector<std::string> remarks{};  ///< what a user should know of how it was corrected
-  std::vector<std::string> notes{};    ///< orientations that are left as programmed: no worse than before, no warning
+  std::vector<std::string> left{};     ///< directions that are left as programmed; of orientation no remarks
   std::vector<std::string> texts{};    ///< of the cells, joints or position and then orientation; empty: kept
 
   bool is_uncorrected() const {

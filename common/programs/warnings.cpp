@@ -172,6 +172,10 @@ std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget
 std::vector<std::string> warnings_of(const Program& program, const CommandModel& model,
                                      const Circumstances& circumstances) {
   std::vector<std::string> sentences = model.notes;
+  if (model.posterior && model.interval && model.interval->fitted)
+    sentences.emplace_back(
+        "the radii that hold 95 % (± ... mm) come from the poses to which the model was fitted, since it had no "
+        "validation poses: they may be too small");
   if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
   if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {

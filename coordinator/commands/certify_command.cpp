@@ -21,6 +21,7 @@
 #include "data_check/check_data.hpp"
 #include "data_check/finding.hpp"
 #include "data_files/data_set_file.hpp"
+#include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
 #include "terminal/report_text.hpp"
@@ -95,26 +96,52 @@ bool are_computed(const CheckedData& checked) {
   return false;
 }
 
+/// What is wrong or odd with the data belongs on what is signed.
+std::vector<std::string> notes_of_check(const DataCheck& check) {
+  constexpr std::size_t kMostNamed = 10;
+  std::vector<std::string> notes;
+  for (const Finding& finding : check.findings) {
+    if (notes.size() == kMostNamed) {
+      notes.push_back(fmt::format("The data check found {} more.", check.findings.size() - kMostNamed));
+      break;
+    }
+    notes.push_back("Of the data: " + finding.sentence);
+  }
+  return notes;
+}
+
+/// Days are written as YYYY-MM-DD, which sorts.
+void require_past_date(const CertificateFields& fields, const std::string& file) {
+  if (fields.text("date") > today())
+    throw InputError({file, 0}, fields.text("date"),
+                     "is after today, " + today() + ": certificate.date is the day of the measurement");
+}
+
 ExitCode run_certify(const CertifyRequest& request) {
   if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
   CalibratedModel model = load_model(request.model_file);
   require_one_robot(model, request.model_file, "certify");
   CheckedData checked = load_checked(request.data_file);
   const DataSet& data = checked.data;
-  model.robot = seen_from_stations(std::move(model.robot), model.stations, data);
+  const CorrectedRobot seen = seen_from_stations(model.robot, model.stations, data);
+  if (model.posterior) model.posterior = posterior_seen(*model.posterior, model.robot, seen, model.stations, data);
+  model.robot = seen;
   require_same_arm(model.robot, data);
   if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
   if (!request.force && are_computed(checked)) return ExitCode::contradiction;
   if (!request.force) require_alike_arm(model, data);
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
   check_fitted(data, model.robot, checked.check);
-  const Certificate certificate =
-      make_certificate(model, data,
-                       {.fields = merged(load_certificate(request.data_file), model.certificate),
-                        .tolerance_m = metres(request.tolerance_mm),
-                        .today = today(),
-                        .model_sha256 = sha256(read_file(request.model_file)),
-                        .refit_base = request.refit_base});
+  std::vector<std::string> notes = notes_of_check(checked.check);
+  const CertificateFields fields = stated_fields(load_certificate(request.data_file), model, data, notes);
+  require_past_date(fields, request.data_file);
+  const Certificate certificate = make_certificate(model, data,
+                                                   {.fields = fields,
+                                                    .tolerance_m = metres(request.tolerance_mm),
+                                                    .today = today(),
+                                                    .model_sha256 = sha256(read_file(request.model_file)),
+                                                    .refit_base = request.refit_base,
+                                                    .notes = notes});
   fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   write_result(request.out, "certificate.html", certificate_html(certificate));
   write_result(request.out, "certificate.xml", dcc_xml(certificate));

@@ -165,7 +165,7 @@ CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
 }
 
 ExitCode run_evaluate(const EvaluateRequest& request) {
-  const CalibratedModel model = load_model(request.model_file);
+  CalibratedModel model = load_model(request.model_file);
   say_if_fleet(model, request.model_file);
   CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
   const DataSet& data = checked.data;
@@ -176,6 +176,8 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                                    : seen_from_stations(model.robot, model.stations, data);
   require_same_arm(robot, data);
   if (!request.force) require_alike_arm(model, data);
+  if (model.posterior) model.posterior = posterior_seen(*model.posterior, model.robot, robot, model.stations, data);
+  model.robot = robot;
   check_fitted(data, robot, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),
                         pose_errors(data, model, robot, nullptr),

@@ -87,5 +87,39 @@ TEST(WorkspaceErrorOf, WhatNoContactTellsIsLeftOut) {
   EXPECT_LT(workspace_error(posterior, {}, robot, ranges, false, RandomStream{5, 1}).rms_m, 1e-12);
 }
 
+Eigen::Matrix3d some_turn(RandomStream& random) {
+  const Eigen::Vector3d axis(random.normal(), random.normal(), random.normal());
+  return Eigen::AngleAxisd(random.real(-3.0, 3.0), axis.normalized()).toRotationMatrix();
+}
+
+/// A base that turned against joint 1 is no error of the tool, in whichever frame it is counted.
+TEST(Posterior, IsAsWideInAnyFrameOfTheMeasurements) {
+  RandomStream random{31, 9};
+  DataSet data;
+  data.robot.chain = wrist_arm();
+  CorrectedRobot robot = nominal_robot(data);
+  robot.sensor_from_base.linear() = some_turn(random);
+  Posterior posterior = link_posterior(robot.chain, random);
+  for (const ParameterId::Kind kind : {ParameterId::Kind::base_translation, ParameterId::Kind::base_rotation})
+    for (int axis = 0; axis < 3; ++axis) posterior.ids.push_back({.kind = kind, .index = axis});
+  posterior.factor.conservativeResize(std::ssize(posterior.ids), Eigen::NoChange);
+  posterior.factor.bottomRows(6) = 1e-3 * Eigen::MatrixXd::Random(6, posterior.factor.cols());
+  // Joint 1 is known to a tenth of a radian, but for the base that turns against it.
+  posterior.factor(0, 0) = 0.1;
+  posterior.factor.bottomRows(3).col(0) = -0.1 * robot.sensor_from_base.linear().col(2);
+  Eigen::Isometry3d there(Eigen::Translation3d(0.4, -1.0, 2.0));
+  there.linear() = some_turn(random);
+  CorrectedRobot moved = robot;
+  moved.sensor_from_base = there * robot.sensor_from_base;
+  const Posterior turned = with_turned_base(posterior, there.linear());
+  for (int i = 0; i < 20; ++i) {
+    const Stop stop(random_joints(random, robot.chain));
+    const PoseCovariance before = pose_covariance(posterior, robot, stop), after = pose_covariance(turned, moved, stop);
+    const Eigen::Matrix3d here = there.linear() * before.topLeftCorner<3, 3>() * there.linear().transpose();
+    EXPECT_LT((after.topLeftCorner<3, 3>() - here).norm(), 1e-9 * here.norm());
+    EXPECT_LT(std::sqrt(before.topLeftCorner<3, 3>().trace()), 0.02);
+  }
+}
+
 }  // namespace
 }  // namespace demecal

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "corrected_arm.hpp"
+#include "programs/summary.hpp"
 #include "programs/target_correction.hpp"
 #include "random/random_stream.hpp"
 
@@ -44,6 +46,57 @@ TEST(DeterminedPart, MakesAnErrorLargerAsRarelyAsItSays) {
   }
   EXPECT_GT(applied, 5000);
   EXPECT_LT(larger, 20);
+}
+
+/// As sure of the second joint's zero as `deviation_rad` says, and of everything else.
+CommandModel sure_to(CommandModel model, double deviation_rad) {
+  Posterior posterior;
+  posterior.ids = {{.kind = ParameterId::Kind::link, .index = 1, .link = LinkParameter::theta}};
+  posterior.factor = Eigen::MatrixXd::Constant(1, 1, deviation_rad);
+  model.posterior = posterior;
+  model.interval = PredictionInterval{};
+  model.interval->quantile = 1.6;
+  return model;
+}
+
+TEST(Correction, CountsWhatItLeavesToWhatItIsReachedWithin) {
+  RandomStream stream{7512};
+  const Robot nominal = elbow_arm(stream);
+  const CommandModel model = erring_model(stream, nominal);
+  for (int i = 0; i < 20; ++i) {
+    Target target;
+    target.joints.resize(6);
+    const Stop stop(regular_joints(stream, nominal.chain));
+    const CorrectedTarget sure = correct_target(target, sure_to(model, 1e-7), stop);
+    EXPECT_NEAR(sure.left_m, 0.0, 1e-6);
+    EXPECT_TRUE(sure.left.empty());
+    EXPECT_LT(*sure.error95_m, 1e-5);
+    const CorrectedTarget unsure = correct_target(target, sure_to(model, 1.0), stop);
+    const double whole_m =
+        (model.robot.predict(stop, "").translation() - model.nominal_tool(stop.joints).translation()).norm();
+    const double there_m =
+        (model.robot.predict(stop.with_joints(unsure.command), "").translation() - unsure.nominal_tool.translation())
+            .norm();
+    EXPECT_LE(unsure.left_m, whole_m);
+    EXPECT_GE(*unsure.error95_m, there_m) << "by the model itself it is so far off";
+    EXPECT_GE(*unsure.error95_m, *error95_m(sure_to(model, 1.0), stop) + unsure.left_m);
+  }
+}
+
+TEST(Correction, SaysWhereRadiiComeFromFittedPoses) {
+  RandomStream stream{7513};
+  const Robot nominal = elbow_arm(stream);
+  CommandModel model = sure_to(erring_model(stream, nominal), 1e-7);
+  Program program;
+  program.targets.resize(1);
+  const auto says = [&] {
+    for (const std::string& sentence : warnings_of(program, model, {}))
+      if (sentence.find("no validation poses") != std::string::npos) return true;
+    return false;
+  };
+  EXPECT_FALSE(says());
+  model.interval->fitted = true;
+  EXPECT_TRUE(says());
 }
 
 }  // namespace

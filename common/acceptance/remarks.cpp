@@ -1,0 +1,130 @@
+#include "acceptance/remarks.hpp"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "data/text.hpp"
+#include "parameters/posterior.hpp"
+#include "report/evaluation.hpp"
+
+namespace demecal::inline acceptance {
+namespace {
+
+class Remarks {
+ public:
+  Remarks(const Certificate& certificate, const CalibratedModel& model, const DataSet& data, const CertifiedRun& run)
+      : certificate_(certificate),
+        model_(model),
+        data_(data),
+        run_(run),
+        touches_(certificate.words.of_one == kJudgedLengths.of_one) {}
+
+  std::vector<std::string> all() {
+    add_on_model();
+    add_on_set();
+    if (touches_)
+      add("No instrument saw the tool: judged are known lengths between points that the arm touched, one posture at "
+          "each end. Errors that leave lengths as they are, such as where the arm stands, are not seen.");
+    else
+      add_on_measurement();
+    if (certificate_.date_is_of_run)
+      add("The date of measurement is not stated; the date of this document, " + run_.today + ", stands in its place.");
+    for (const UnappliedEffect& one : unapplied_effects(model_.robot, data_)) add(one.sentence + ".");
+    add_on_excluded();
+    all_.insert(all_.end(), run_.notes.begin(), run_.notes.end());
+    return std::move(all_);
+  }
+
+ private:
+  void add(std::string sentence) { all_.push_back(std::move(sentence)); }
+
+  void add_on_model() {
+    if (!touches_)
+      add("The errors after are those of motions that this model corrects, the side of approach known; what is not "
+          "corrected errs as before.");
+    if (!model_.posterior || !model_.interval)
+      return add("The model file is of an older version and states no uncertainty.");
+    if (model_.interval->fitted && certificate_.uncertainty)
+      add("Uncertainties come from the poses to which the model was fitted, since there were no validation poses: they "
+          "may be too narrow.");
+  }
+
+  void add_on_set() {
+    const std::string& set = certificate_.judged_set;
+    if (set != "accept")
+      return add("The data hold no accept poses: the " + set + " poses are judged, " +
+                 (set == "validation" ? "which took part in the choice of the model."
+                                      : "to which the model was fitted: its error elsewhere may be larger."));
+    if (!is_calibrated_with(model_, data_))
+      add("The data are another file than the model was calibrated with: whether any of these poses had a part in the "
+          "model is not known here.");
+  }
+
+  /// Of positions and lengths that an instrument saw.
+  void add_on_measurement() {
+    if (!run_.fields.instrument_uncertainty_m)
+      add("The instrument's uncertainty is not stated (instrument_uncertainty_mm): errors of the instrument that all "
+          "poses share are not in the guard band.");
+    if (certificate_.judgement.assumes_normal)
+      add(
+          fmt::format("With fewer than {} poses the upper limit assumes that errors are normally distributed along one "
+                      "line.",
+                      fewest_without_assumption()));
+    if (certificate_.judgement.poses < certificate_.poses.size())
+      add(
+          fmt::format("{} were measured with several targets or from several sides: of each the largest error is "
+                      "judged.",
+                      counted(certificate_.judgement.poses, "pose")));
+    const auto is_repeated = [](const CertifiedPose& pose) { return pose.measurements > 1; };
+    if (std::ranges::none_of(certificate_.poses, is_repeated))
+      add("No judged pose was measured repeatedly: the noise in the guard band above the tolerance is what the model's "
+          "fit left, which holds the model's error too.");
+    if (run_.refit_base)
+      add("Base and tool were fitted to this data set's poses that are not judged before anything else.");
+    if (placing_poses(data_).empty())
+      add("The data hold too few poses beside those that are judged: the errors before are those with the base fitted "
+          "to the judged poses themselves.");
+    add_on_range();
+  }
+
+  void add_on_range() {
+    constexpr double kOutside = 1.1;
+    std::size_t outside = 0;
+    const std::vector<std::size_t> rows = judged_poses(data_);
+    for (const std::size_t row : rows)
+      outside += extrapolation(data_.robot.chain, model_.measured, data_.poses[row].joints) > kOutside ? 1 : 0;
+    if (outside > 0)
+      add(fmt::format("{} of the {} judged measurements lie outside the joints that the model was measured at.",
+                      outside, rows.size()));
+  }
+
+  void add_on_excluded() {
+    constexpr std::size_t kMostNamed = 10;
+    std::vector<std::string> names;
+    for (const MeasuredPose& pose : data_.excluded)
+      names.push_back(pose.pose_id.empty() ? fmt::format("line {}", pose.line) : pose.pose_id);
+    const std::size_t count = names.size();
+    if (count == 0) return;
+    if (count > kMostNamed) names.resize(kMostNamed);
+    add(fmt::format("{} {} excluded in the data set's file: {}{}.", counted(count, "measurement"),
+                    count == 1 ? "is" : "are", fmt::join(names, ", "), count > kMostNamed ? " and others" : ""));
+  }
+
+  const Certificate& certificate_;
+  const CalibratedModel& model_;
+  const DataSet& data_;
+  const CertifiedRun& run_;
+  const bool touches_;
+  std::vector<std::string> all_;
+};
+
+}  // namespace
+
+std::vector<std::string> remarks_on(const Certificate& certificate, const CalibratedModel& model, const DataSet& data,
+                                    const CertifiedRun& run) {
+  return Remarks(certificate, model, data, run).all();
+}
+
+}  // namespace demecal::inline acceptance

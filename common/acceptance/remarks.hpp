@@ -1,0 +1,17 @@
+// What whoever signs a certificate should know, in sentences.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "acceptance/certificate.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
+
+namespace demecal::inline acceptance {
+
+/// Of a certificate whose figures are there: what limits them, and what was noted beforehand (run.notes).
+std::vector<std::string> remarks_on(const Certificate& certificate, const CalibratedModel& model, const DataSet& data,
+                                    const CertifiedRun& run);
+
+}  // namespace demecal::inline acceptance

@@ -1,0 +1,164 @@
+// What a certificate counts, what it takes from where, and what it must not leave unsaid.
+#include "acceptance/certificate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "errors/input_error.hpp"
+#include "sent_arm.hpp"
+
+namespace demecal {
+namespace {
+
+constexpr double kError_m = 1e-3;
+
+CalibratedModel model_of(const SentArm& arm) {
+  CalibratedModel model;
+  model.nominal = arm.data().robot;
+  model.robot = nominal_robot(arm.data());
+  model.declared.registration = true;
+  model.data_sha256 = "of the model";
+  model.interval = PredictionInterval{};
+  model.interval->noise_m = 4e-4;
+  return model;
+}
+
+Certificate certificate_of(const SentArm& arm, const CertifiedRun& run) {
+  return make_certificate(model_of(arm), arm.data(), run);
+}
+
+bool remarks_on(const Certificate& certificate, const std::string& words) {
+  return std::ranges::any_of(certificate.remarks,
+                             [&](const std::string& remark) { return remark.find(words) != std::string::npos; });
+}
+
+void add_others(SentArm& arm, PoseSet set, int count) {
+  for (int i = 0; i < count; ++i) arm.add("O" + std::to_string(i), arm.somewhere(), Eigen::Vector3d::Zero()).set = set;
+}
+
+CertifiedRun run_at(double tolerance_m) {
+  return {.fields = {}, .tolerance_m = tolerance_m, .today = "2026-02-03", .model_sha256 = ""};
+}
+
+TEST(Certificate, JudgesThePoseAndNotItsSides) {
+  SentArm arm(21);
+  for (int i = 0; i < 12; ++i) {
+    const JointVector joints = arm.somewhere();
+    for (const double side : {1.0, -1.0})
+      arm.add("P" + std::to_string(i), joints, (side > 0 ? 1.0 : 0.2) * Eigen::Vector3d(kError_m, 0, 0)).approach =
+          ApproachSigns::Constant(6, side);
+  }
+  const Certificate certificate = certificate_of(arm, run_at(2e-3));
+  EXPECT_EQ(certificate.judgement.poses, 12U);
+  EXPECT_EQ(certificate.poses.size(), 24U);
+  EXPECT_NEAR(certificate.judgement.error_m, kError_m, 1e-9) << "the larger of the two";
+  EXPECT_TRUE(remarks_on(certificate, "12 poses were measured with several targets or from several sides"));
+}
+
+TEST(Certificate, TakesPosesAtTheSameJointsForOne) {
+  SentArm arm(22), apart(22);
+  for (int i = 0; i < 20; ++i) {
+    const JointVector joints = arm.somewhere();
+    for (const char* const target : {"A", "B", "C"})
+      arm.add(target + std::to_string(i), joints, Eigen::Vector3d(kError_m, 0, 0));
+    apart.add(std::to_string(i), joints, Eigen::Vector3d(kError_m, 0, 0));
+  }
+  EXPECT_EQ(certificate_of(arm, run_at(2e-3)).judgement.poses, 20U);
+  const Certificate certificate = certificate_of(apart, run_at(2e-3));
+  EXPECT_EQ(certificate.judgement.poses, 20U);
+  EXPECT_FALSE(remarks_on(certificate, "several targets"));
+}
+
+TEST(Certificate, FitsNoBaseToThePosesThatItJudges) {
+  SentArm arm(23);
+  add_others(arm, PoseSet::accept, 8);
+  CertifiedRun run = run_at(1e-3);
+  EXPECT_TRUE(remarks_on(certificate_of(arm, run), "fitted to the judged poses themselves"));
+  run.refit_base = true;
+  EXPECT_THROW(certificate_of(arm, run), InputError);
+  add_others(arm, PoseSet::calibration, 12);
+  const Certificate refitted = certificate_of(arm, run);
+  EXPECT_TRUE(remarks_on(refitted, "poses that are not judged"));
+  EXPECT_FALSE(remarks_on(refitted, "fitted to the judged poses themselves"));
+}
+
+TEST(Certificate, ClaimsNothingOfWhereOtherDataAreFrom) {
+  SentArm arm(24);
+  add_others(arm, PoseSet::accept, 8);
+  EXPECT_TRUE(remarks_on(certificate_of(arm, run_at(1e-3)), "is not known here"));
+  arm.data().sha256 = "of the model";
+  EXPECT_FALSE(remarks_on(certificate_of(arm, run_at(1e-3)), "is not known here"));
+  CalibratedModel stations = model_of(arm);
+  stations.data_sha256 = "of both";
+  stations.stations = {{"a", "of another", Eigen::Isometry3d::Identity()},
+                       {"b", "of the model", Eigen::Isometry3d::Identity()}};
+  EXPECT_TRUE(is_calibrated_with(stations, arm.data()));
+}
+
+TEST(Certificate, TakesNothingOfTheDayFromTheModel) {
+  SentArm arm(25);
+  CalibratedModel model = model_of(arm);
+  model.certificate.texts = {
+      {"date", "2025-01-31"}, {"certificate_number", "K1"}, {"operator", "A"},      {"environment", "B"},
+      {"place", "C"},         {"instrument", "D"},          {"serial_number", "1"}, {"customer", "E"}};
+  CertificateFields of_data;
+  of_data.texts = {{"serial_number", "2"}};
+  std::vector<std::string> notes;
+  const CertificateFields other = stated_fields(of_data, model, arm.data(), notes);
+  for (const char* const key : {"date", "certificate_number", "operator", "environment", "place"})
+    EXPECT_EQ(other.text(key), "") << key;
+  EXPECT_EQ(other.text("customer"), "E");
+  EXPECT_EQ(other.text("serial_number"), "2");
+  ASSERT_EQ(notes.size(), 2U);
+  EXPECT_NE(notes[0].find("serial number 2"), std::string::npos);
+  EXPECT_NE(notes[1].find("Customer, Measuring instrument"), std::string::npos);
+  arm.data().sha256 = model.data_sha256;
+  notes.clear();
+  EXPECT_EQ(stated_fields(of_data, model, arm.data(), notes).text("date"), "2025-01-31");
+  EXPECT_TRUE(notes.empty());
+}
+
+TEST(Certificate, TakesTheNoiseFromRepeatsWhereThereAreAny) {
+  SentArm arm(26);
+  constexpr double kNoise_m = 2e-5;
+  for (int i = 0; i < 8; ++i) {
+    const JointVector joints = arm.somewhere();
+    for (const double sign : {1.0, -1.0})
+      arm.add("P" + std::to_string(i), joints, sign * kNoise_m * Eigen::Vector3d::UnitX());
+  }
+  const Certificate repeated = certificate_of(arm, run_at(1e-3));
+  // Of two repeats 2 d apart, d each from their mean: 2 d^2 / 3, and the mean of the two has half of that.
+  EXPECT_NEAR(repeated.judgement.guard_above_m, 2.0 * kNoise_m * std::sqrt(2.0 / 3.0) / std::sqrt(2.0), 1e-9);
+  EXPECT_FALSE(remarks_on(repeated, "holds the model's error too"));
+  SentArm once(27);
+  add_others(once, PoseSet::accept, 8);
+  const Certificate single = certificate_of(once, run_at(1e-3));
+  EXPECT_NEAR(single.judgement.guard_above_m, 8e-4, 1e-12);
+  EXPECT_TRUE(remarks_on(single, "holds the model's error too"));
+}
+
+TEST(Certificate, SaysWhatLiesOutsideAndWhatWasLeftOut) {
+  SentArm arm(28);
+  add_others(arm, PoseSet::accept, 8);
+  CalibratedModel model = model_of(arm);
+  for (int joint = 0; joint < 6; ++joint) model.measured.push_back({-0.01, 0.01});
+  for (int i = 0; i < 12; ++i) {
+    arm.data().excluded.push_back(arm.data().poses.front());
+    arm.data().excluded.back().pose_id = "X" + std::to_string(i);
+  }
+  CertifiedRun run = run_at(1e-3);
+  run.notes = {"noted before"};
+  const Certificate certificate = make_certificate(model, arm.data(), run);
+  EXPECT_TRUE(remarks_on(certificate, "8 of the 8 judged measurements lie outside"));
+  EXPECT_TRUE(remarks_on(certificate, "12 measurements are excluded in the data set's file: X0, X1, "));
+  EXPECT_TRUE(remarks_on(certificate, "X9 and others."));
+  EXPECT_TRUE(remarks_on(certificate, "noted before"));
+  EXPECT_TRUE(remarks_on(certificate, "what is not corrected errs as before"));
+}
+
+}  // namespace
+}  // namespace demecal
