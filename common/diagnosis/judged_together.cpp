@@ -8,6 +8,7 @@
 #include "diagnosis/explain.hpp"
 #include "diagnosis/judgement.hpp"
 #include "effects/law_terms.hpp"
+#include "pieces/pieces.hpp"
 #include "random/distributions.hpp"
 #include "random/random_purpose.hpp"
 #include "residuals/projection.hpp"
@@ -140,10 +141,11 @@ std::vector<Round> judged_together(const LoopEnd& end, const DiagnosedModel& mod
   const Eigen::MatrixXd inverse = scale.asDiagonal() * Cholesky(scaled).inverse() * scale.asDiagonal();
   const double squares = linearization.projection.squares() - all.drop;
   const JointJudgement judgement(end, model, linearization);
-  std::vector<Round> rounds;
-  for (std::size_t i = 0; i < effects.size(); ++i)
-    rounds.push_back(judgement.round_of(effects[i], beside_others(all, inverse, columns.fitted.spans()[i]), left,
-                                        squares, static_cast<int>(i)));
+  std::vector<Round> rounds(effects.size());
+  in_pieces(rounds.size(), [&](std::size_t i) {
+    rounds[i] = judgement.round_of(effects[i], beside_others(all, inverse, columns.fitted.spans()[i]), left, squares,
+                                   static_cast<int>(i));
+  });
   return rounds;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "effects/effect.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/parameter_space.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
@@ -105,11 +107,12 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
   ExplanationFront front;
   front.effects = std::move(effects);
   const std::vector<std::size_t> judging = judging_poses(problem, model.robot);
-  std::vector<SquaredErrors_mm2> errors;
-  for (const EffectSet& set : sets) {
-    errors.push_back(squared_errors(problem.data, judging, models.with(set.effects).robot));
-    front.points.push_back({set.effects, set.causes, std::sqrt(mean(errors.back()))});
-  }
+  std::vector<SquaredErrors_mm2> errors(sets.size());
+  front.points.resize(sets.size());
+  in_pieces(sets.size(), [&](std::size_t i) {
+    errors[i] = squared_errors(problem.data, judging, models.with(sets[i].effects).robot);
+    front.points[i] = {sets[i].effects, sets[i].causes, std::sqrt(mean(errors[i]))};
+  });
   if (sets.empty()) return front;
   const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
   front.best = static_cast<std::size_t>(best - front.points.begin());
@@ -163,13 +166,14 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
   const DiagnosisProblem last_problem{problem.data, problem.declared, {last_fitted.begin(), last_fitted.end()}, {}};
   const SetModels last_models(last_problem, last, front.effects);
   const std::vector<std::size_t> accept = poses_of(problem.data, PoseSet::accept);
-  for (const ExplanationFront::Point& at : front.points) {
-    FrontPoint point{
-        .causes = at.causes, .validation_rms_mm = at.validation_rms_mm, .chosen = &at == &front.points[front.chosen]};
+  budget.front.resize(front.points.size());
+  in_pieces(front.points.size(), [&](std::size_t i) {
+    const ExplanationFront::Point& at = front.points[i];
+    FrontPoint& point = budget.front[i];
+    point = {.causes = at.causes, .validation_rms_mm = at.validation_rms_mm, .chosen = i == front.chosen};
     const CorrectedRobot robot = point.chosen ? last.robot : last_models.with(at.set).robot;
     if (!accept.empty()) point.accept_rms_mm = error_figures(robot, problem.data, accept).rms_mm;
-    budget.front.push_back(point);
-  }
+  });
 
   const SetModels models(problem, model, effects_of(model));
   const auto errors_of = [&](const std::vector<std::size_t>& set) {
@@ -177,17 +181,20 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
   };
   const SquaredErrors_mm2 with = errors_of(models.held());
   const double bare_mm2 = mean(errors_of({}));
-  for (const ErrorCause& cause : causes) {
+  const std::uint64_t name = random.name();
+  budget.causes.resize(causes.size());
+  in_pieces(causes.size(), [&](std::size_t i) {
     std::vector<std::size_t> others = models.held();
-    std::erase_if(others, [&](std::size_t effect) { return std::ranges::binary_search(cause.effects, effect); });
+    std::erase_if(others, [&](std::size_t effect) { return std::ranges::binary_search(causes[i].effects, effect); });
     const SquaredErrors_mm2 without = errors_of(others);
     const double without_mm2 = mean(without), with_mm2 = mean(with);
-    budget.causes.push_back({.cause = cause,
-                             .without_mm = std::sqrt(without_mm2),
-                             .with_mm = std::sqrt(with_mm2),
-                             .share = (without_mm2 - with_mm2) / bare_mm2,
-                             .interval_mm = fall_interval(without, with, random)});
-  }
+    RandomStream own{name, i};
+    budget.causes[i] = {.cause = causes[i],
+                        .without_mm = std::sqrt(without_mm2),
+                        .with_mm = std::sqrt(with_mm2),
+                        .share = (without_mm2 - with_mm2) / bare_mm2,
+                        .interval_mm = fall_interval(without, with, own)};
+  });
   std::ranges::stable_sort(budget.causes, std::greater{}, &CauseCost::without_mm);
   return budget;
 }

@@ -152,7 +152,7 @@ CorrectedRobot with_tools_of_stations(CorrectedRobot robot, const DataSet& data)
 namespace {
 
 /// The one of `known` that measured the data, or their first station's.
-std::vector<Station>::const_iterator first_of(const std::vector<Station>& known, const DataSet& data) {
+std::vector<Station>::const_iterator first_station_of(const std::vector<Station>& known, const DataSet& data) {
   const std::string& sha256 = data.stations.empty() ? data.sha256 : data.stations.front().sha256;
   return std::ranges::find(known, sha256, &Station::sha256);
 }
@@ -161,7 +161,7 @@ std::vector<Station>::const_iterator first_of(const std::vector<Station>& known,
 std::map<std::string, std::string> targets_at_first(const CorrectedRobot& robot, const std::vector<Station>& known,
                                                     const DataSet& data) {
   std::map<std::string, std::string> names;
-  const auto first = first_of(known, data);
+  const auto first = first_station_of(known, data);
   if (first == known.end() || first == known.begin()) return names;
   for (const MeasuredPose& pose : data.poses) {
     const std::string there = target_at_station(first->name, pose.target);
@@ -175,7 +175,7 @@ std::map<std::string, std::string> targets_at_first(const CorrectedRobot& robot,
 CorrectedRobot seen_from_stations(CorrectedRobot robot, const std::vector<Station>& known, const DataSet& data) {
   robot.stations.clear();
   if (known.empty() && data.stations.empty()) return robot;
-  const auto first = first_of(known, data);
+  const auto first = first_station_of(known, data);
   Eigen::Isometry3d own_from_first = Eigen::Isometry3d::Identity();  // of the data's first station, from the model's
   if (first != known.end()) {
     own_from_first = first->first_from_own.inverse();

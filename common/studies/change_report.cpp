@@ -195,14 +195,19 @@ namespace {
 
 const std::vector<std::string>& history_columns() {
   static const std::vector<std::string> all{"date",  "verdict", "strain", "strain_limit", "error_mm",
-                                            "poses", "cause",   "data",   "model"};
+                                            "poses", "cause",   "data",   "model",        "robot"};
   return all;
 }
 
 }  // namespace
 
-CheckRecord check_record(const ChangeReport& change, const DataSet& data, const std::string& model_file,
-                         const std::string& date) {
+std::string checked_robot(const CalibratedModel& model) {
+  const std::string serial = model.certificate.text("serial_number");
+  return on_one_line(model.nominal.name + (serial.empty() ? "" : ", serial number " + serial));
+}
+
+CheckRecord check_record(const ChangeReport& change, const DataSet& data, const CalibratedModel& model,
+                         const std::string& model_file, const std::string& date) {
   std::string causes;
   for (const ChangeCause& cause : change.found) causes += (causes.empty() ? "" : " and ") + to_string(cause.effect);
   if (change.unnamed) causes = "cannot be named";
@@ -215,7 +220,8 @@ CheckRecord check_record(const ChangeReport& change, const DataSet& data, const 
           .strain = change.strain,
           .strain_limit = change.strain_limit,
           .error_mm = millimetres(change.error_m),
-          .cause = causes};
+          .cause = causes,
+          .robot = checked_robot(model)};
 }
 
 std::string check_history_csv(const std::vector<CheckRecord>& records) {
@@ -225,7 +231,7 @@ std::string check_history_csv(const std::vector<CheckRecord>& records) {
     table.rows.push_back({0,
                           {on_one_line(one.date), one.verdict, number_text(one.strain), number_text(one.strain_limit),
                            number_text(one.error_mm), std::to_string(one.poses), on_one_line(one.cause),
-                           on_one_line(one.data), on_one_line(one.model)}});
+                           on_one_line(one.data), on_one_line(one.model), on_one_line(one.robot)}});
   return csv_text(table);
 }
 
@@ -235,8 +241,10 @@ std::vector<CheckRecord> read_check_history(const std::string& text, const std::
   std::istringstream in(text);
   const CsvTable table = read_csv(in, file);
   std::vector<TableColumn> read;
+  const bool names_robot = std::ranges::count(table.columns, history_columns().back()) > 0;
   for (const std::string& column : history_columns())
-    read.emplace_back(table, ColumnName{column, {file, table.header_line}});
+    if (names_robot || column != history_columns().back())
+      read.emplace_back(table, ColumnName{column, {file, table.header_line}});
   for (const CsvRow& row : table.rows)
     records.push_back({.date = read[0].text(row),
                        .model = read[8].text(row),
@@ -246,7 +254,8 @@ std::vector<CheckRecord> read_check_history(const std::string& text, const std::
                        .strain = read[2].number(row),
                        .strain_limit = read[3].number(row),
                        .error_mm = read[4].number(row),
-                       .cause = read[6].text(row)});
+                       .cause = read[6].text(row),
+                       .robot = names_robot ? read.back().text(row) : std::string()});
   return records;
 }
 

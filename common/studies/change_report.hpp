@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "updating/change.hpp"
 
@@ -25,10 +26,14 @@ struct CheckRecord {
   double strain = 0.0, strain_limit = 0.0;  ///< as of ChangeReport
   double error_mm = 0.0;                    ///< rms of the tool by the model
   std::string cause;                        ///< what was found, in words; empty: nothing
+  std::string robot{};                      ///< see checked_robot(); empty in a record that does not say
 };
 
-CheckRecord check_record(const ChangeReport& change, const DataSet& data, const std::string& model_file,
-                         const std::string& date);
+/// The robot that the model is of: its name and, where the model's job stated it, its serial number.
+std::string checked_robot(const CalibratedModel& model);
+
+CheckRecord check_record(const ChangeReport& change, const DataSet& data, const CalibratedModel& model,
+                         const std::string& model_file, const std::string& date);
 
 /// A table that read_check_history() reads back.
 std::string check_history_csv(const std::vector<CheckRecord>& records);

@@ -232,7 +232,9 @@ void say_changes(const Sizes& sizes, bool of_fleet, Update& update) {
         of_fleet ? fmt::format("The new poses show {} to be {:.1f} times as far from the fleet's mean as is usual for "
                                "its robots: is this one of the type?",
                                what, times)
-                 : fmt::format("The new poses show {} to have changed {:.1f} times as much as is usual.", what, times));
+                 : fmt::format("The new poses show {} to have changed {:.1f} times as much as is usual between two "
+                               "measurements: are they of the same robot, and has nothing been exchanged?",
+                               what, times));
   }
   if (update.base_and_tool_only)
     update.sentences.emplace_back(

@@ -243,17 +243,27 @@ std::set<std::string> suspects(const DataCheck& check) {
   return names;
 }
 
+constexpr const char *kHistoryTable = "check-history.csv", *kHistoryPage = "check-history.html";
+/// The folder's record so far, which must be of the model's robot.
+std::vector<CheckRecord> history_of(const CheckRequest& request, const CalibratedModel& model) {
+  const std::string path = request.history + '/' + kHistoryTable;
+  if (request.history.empty() || !std::filesystem::exists(path)) return {};
+  std::vector<CheckRecord> records = read_check_history(read_file(path), path);
+  for (const CheckRecord& one : records)
+    if (!one.robot.empty() && one.robot != checked_robot(model))
+      throw InputError({path, 0}, one.robot,
+                       "is the robot of this record, not " + checked_robot(model) + ": give every robot its folder");
+  return records;
+}
+
 /// Adds the check to the folder's record, and draws it.
-void keep(const CheckRequest& request, const ChangeReport& change, const DataSet& data) {
-  constexpr const char *kTable = "check-history.csv", *kPage = "check-history.html";
-  make_writable(request.history, {kTable, kPage}, request.force);
-  const std::string path = request.history + '/' + kTable;
-  std::vector<CheckRecord> records;
-  if (std::filesystem::exists(path)) records = read_check_history(read_file(path), path);
-  records.push_back(check_record(change, data, request.model_file, today()));
-  write_result(request.history, kTable, check_history_csv(records));
-  write_result(request.history, kPage, check_history_html(records));
-  fmt::print(stderr, "{}/{}: {} check{}\n", request.history, kPage, records.size(), records.size() == 1 ? "" : "s");
+void keep(const CheckRequest& request, CheckRecord check, std::vector<CheckRecord> records) {
+  make_writable(request.history, {kHistoryTable, kHistoryPage}, request.force);
+  records.push_back(std::move(check));
+  write_result(request.history, kHistoryTable, check_history_csv(records));
+  write_result(request.history, kHistoryPage, check_history_html(records));
+  fmt::print(stderr, "{}/{}: {} check{}\n", request.history, kHistoryPage, records.size(),
+             records.size() == 1 ? "" : "s");
 }
 
 ExitCode run_check(const CheckRequest& request) {
@@ -265,8 +275,9 @@ ExitCode run_check(const CheckRequest& request) {
   require_same_nominal_arm(model, data);
   if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
   fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
+  const std::vector<CheckRecord> history = history_of(request, model);
   const ChangeReport change = find_change(model, data, suspects(checked.check));
-  if (!request.history.empty()) keep(request, change, data);
+  if (!request.history.empty()) keep(request, check_record(change, data, model, request.model_file, today()), history);
   fmt::print("{}",
              request.json ? to_json(change, data, request.model_file) : change_text(change, data, request.model_file));
   return change.verdict == ChangeVerdict::changed ? ExitCode::changed : ExitCode::done;

@@ -106,7 +106,8 @@ std::string second_station(const SmallJob& job) {
 TEST(Diagnose, FitsTwoStationsAsOneAndKnowsThemAgain) {
   const SmallJob job(20, 2, kBacklash);
   const std::string south = second_station(job);
-  const Ended ended = run("demecal", diagnose(job, "out", {south, "--declare", "registration,tool,joint_corrections"}));
+  const Ended ended =
+      run("demecal", diagnose(job, "out", {south, "--declare", "registration,tool,joint_offset,joint_corrections"}));
   ASSERT_EQ(ended.code, 0) << ended.err;
   const Json report = report_of(job, "out");
   ASSERT_EQ(report["stations"].size(), 2U);
@@ -124,6 +125,9 @@ TEST(Diagnose, FitsTwoStationsAsOneAndKnowsThemAgain) {
     const double rms_mm = Json::parse(one.out)["error_mm"]["accept"]["rms"];
     const Json& station = report["stations"][data == south ? 1 : 0];
     EXPECT_NEAR(rms_mm, station["error_mm"]["after"]["accept"]["rms"], 1e-6) << data;
+    const Ended placed = run("demecal", {"evaluate", model, data, "--refit-base", "--json"});
+    for (const Ended& each : {one, placed})
+      EXPECT_LT(Json::parse(each.out)["uncertainty"]["expanded_mm"], 1.0) << data << ": a zero of joint 1 is no error";
   }
 }
 

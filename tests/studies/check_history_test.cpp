@@ -11,7 +11,8 @@ namespace {
 TEST(CheckHistory, ComesBackAsItWasWritten) {
   const std::vector<CheckRecord> records{
       {"2026-03-01", "out/model.yaml", "march, \"north\"", 12, "unchanged", 0.93, 1.41, 0.051, ""},
-      {"2026-07-01", "out/model.yaml", "july", 14, "changed", 3.7, 1.4, 0.31, "joint_offset, joint 3 and tool"}};
+      {"2026-07-01", "out/model.yaml", "july", 14, "changed", 3.7, 1.4, 0.31, "joint_offset, joint 3 and tool",
+       "UR5e, serial number 7"}};
   const std::vector<CheckRecord> read = read_check_history(check_history_csv(records), "check-history.csv");
   ASSERT_EQ(read.size(), records.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
@@ -24,7 +25,20 @@ TEST(CheckHistory, ComesBackAsItWasWritten) {
     EXPECT_EQ(read[i].strain_limit, records[i].strain_limit);
     EXPECT_EQ(read[i].error_mm, records[i].error_mm);
     EXPECT_EQ(read[i].cause, records[i].cause);
+    EXPECT_EQ(read[i].robot, records[i].robot);
   }
+  const std::string without =
+      "date,verdict,strain,strain_limit,error_mm,poses,cause,data,model\nd,changed,1,2,3,4,c,a,m\n";
+  ASSERT_EQ(read_check_history(without, "check-history.csv").size(), 1U) << "no robot was recorded";
+  EXPECT_EQ(read_check_history(without, "check-history.csv").front().model, "m");
+}
+
+TEST(CheckHistory, TellsRobotsOfOneTypeByTheirNumbers) {
+  CalibratedModel model;
+  model.nominal.name = "UR5e";
+  EXPECT_EQ(checked_robot(model), "UR5e");
+  model.certificate.texts["serial_number"] = "7";
+  EXPECT_EQ(checked_robot(model), "UR5e, serial number 7");
 }
 
 TEST(CheckHistory, OfNothingIsEmptyAndOfAnotherTableRefused) {
