@@ -32,8 +32,8 @@ std::vector<std::string> numbered_names(std::string_view stem, int count);
 /// Whether targets of six joints can be of this arm, all of them revolute.
 bool has_six_revolute_joints(const Chain& arm);
 
-/// What correction needs to know of a language. It is defined in the language's own file and listed there or by its family;
-/// nothing else knows one language from another. Corrected numbers replace the bytes of the old ones.
+/// What correction needs to know of a language. It is defined in the language's own file and listed there or by its
+/// family; nothing else knows one language from another. Corrected numbers replace the bytes of the old ones.
 struct Language {
   std::string_view name;                          ///< for --language and in results; small letters
   std::string_view title;                         ///< as people call it
