@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -159,7 +160,11 @@ double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& p
   const double model_error_m2 = std::pow(interval.model_error_m, 2);
   if (is_of_distances(pose)) return std::pow(interval.distance_noise_m, 2) + model_error_m2;
   const double axes = pose.contact.empty() ? 3.0 : rows_of(pose.contact_kind);
-  return axes * (std::pow(interval.noise_m, 2) + model_error_m2);
+  // The interval's noise is that of a row of usual uncertainty: others have theirs in proportion.
+  const double larger = pose.position_whitening
+                            ? (*pose.position_whitening * pose.position_whitening->transpose()).inverse().trace() / 3.0
+                            : 1.0;
+  return axes * (larger * std::pow(interval.noise_m, 2) + model_error_m2);
 }
 
 double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints) {

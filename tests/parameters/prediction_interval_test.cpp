@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numeric>
 
@@ -63,6 +64,18 @@ TEST(NormalQuantile, HoldsItsShareWhereScoresAreFewAndNormal) {
     inside += draw() <= normal_quantile_of_scores(scores, alone(6), 3, 0.95) ? 1 : 0;
   }
   EXPECT_NEAR(inside, 0.95 * kTrials, 4.0 * std::sqrt(0.05 * 0.95 * kTrials));
+}
+
+/// An instrument that measures two axes twice as badly as is usual, and one as usual.
+TEST(NoiseSquare, IsThatOfThePosesOwnUncertainty) {
+  PredictionInterval interval;
+  interval.noise_m = 1e-4;
+  interval.model_error_m = 3e-5;
+  MeasuredPose pose;
+  EXPECT_NEAR(noise_square_m2(interval, pose), 3.0 * (1e-8 + 9e-10), 1e-16);
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.8, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  pose.position_whitening = turn * Eigen::Vector3d(0.5, 0.5, 1.0).asDiagonal() * turn.transpose();
+  EXPECT_NEAR(noise_square_m2(interval, pose), 9e-8 + 3.0 * 9e-10, 1e-16);
 }
 
 }  // namespace
