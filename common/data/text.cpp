@@ -46,6 +46,11 @@ std::string joined_words(std::span<const std::string> words, std::string_view be
   return text;
 }
 
+std::string listed_words(std::span<const std::string> words, std::string_view last) {
+  if (words.size() < 2) return joined_words(words, "");
+  return joined_words(words.first(words.size() - 1), ", ") + ' ' + std::string(last) + ' ' + words.back();
+}
+
 std::string counted(std::size_t count, std::string_view noun) {
   return std::to_string(count) + ' ' + std::string(noun) + (count == 1 ? "" : "s");
 }

@@ -34,6 +34,8 @@ inline std::string lower_case(std::string_view text) {
 
 /// The words one after another, `between` between each two.
 std::string joined_words(std::span<const std::string> words, std::string_view between);
+/// "a, b or c", where `last` is "or".
+std::string listed_words(std::span<const std::string> words, std::string_view last);
 
 /// "1 pose", "2 poses".
 std::string counted(std::size_t count, std::string_view noun);

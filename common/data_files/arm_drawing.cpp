@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -78,6 +80,28 @@ void read_type_and_limits(const YamlNode& node, Joint& row) {
   row.upper = revolute ? radians(upper) : metres(upper);
 }
 
+constexpr std::array<std::pair<std::string_view, GearKind>, 4> kGearKinds{{{"strain_wave", GearKind::strain_wave},
+                                                                           {"cycloidal", GearKind::cycloidal},
+                                                                           {"planetary", GearKind::planetary},
+                                                                           {"spur", GearKind::spur}}};
+
+void read_gear(const YamlNode& node, Joint& row) {
+  const YamlNode* const gear = node.find("gear");
+  if (gear == nullptr) return;
+  gear->with_keys({"kind", "ratio"});
+  if (!is_revolute(row)) gear->fail("", "is for joints that turn: its lines are counted by the joint's turn");
+  row.gear = Gear{gear->at("kind").one_of<GearKind>({kGearKinds[0], kGearKinds[1], kGearKinds[2], kGearKinds[3]}),
+                  gear->at("ratio").number()};
+  if (!(row.gear->ratio > 1.0))
+    gear->at("ratio").fail("must be above 1: turns of the gear's input for one turn of the joint");
+}
+
+std::string gear_entry(const Joint& row) {
+  if (!row.gear) return {};
+  const auto kind = std::ranges::find(kGearKinds, row.gear->kind, &std::pair<std::string_view, GearKind>::second);
+  return ", gear: {kind: " + std::string(kind->first) + ", ratio: " + number_text(row.gear->ratio) + "}";
+}
+
 /// Which way and from where the controller counts.
 void read_counting(const YamlNode& node, DrawnJoint& joint) {
   if (const YamlNode* name = node.find("name")) joint.name = name->text();
@@ -96,9 +120,10 @@ void read_counting(const YamlNode& node, DrawnJoint& joint) {
 
 DrawnJoint read_row(const YamlNode& node) {
   node.with_keys({"name", "type", "alpha_deg", "a_mm", "d_mm", "theta_offset_deg", "beta_deg", "direction",
-                  "offset_deg", "offset_mm", "limits_deg", "limits_mm"});
+                  "offset_deg", "offset_mm", "limits_deg", "limits_mm", "gear"});
   DrawnJoint joint;
   read_type_and_limits(node, joint.row);
+  read_gear(node, joint.row);
   joint.row.alpha_rad = link_angle(node.at("alpha_deg"));
   joint.row.a_m = metres(node.at("a_mm").number());
   joint.row.d_m = metres(node.at("d_mm").number());
@@ -109,10 +134,11 @@ DrawnJoint read_row(const YamlNode& node) {
 }
 
 DrawnJoint read_axis(const YamlNode& node) {
-  node.with_keys(
-      {"name", "type", "xyz_mm", "rpy_deg", "axis", "direction", "offset_deg", "offset_mm", "limits_deg", "limits_mm"});
+  node.with_keys({"name", "type", "xyz_mm", "rpy_deg", "axis", "direction", "offset_deg", "offset_mm", "limits_deg",
+                  "limits_mm", "gear"});
   DrawnJoint joint;
   read_type_and_limits(node, joint.row);
+  read_gear(node, joint.row);
   joint.origin = read_origin(node);
   joint.axis = Eigen::Vector3d::UnitX();  // as URDF has it
   if (const YamlNode* axis = node.find("axis")) {
@@ -222,7 +248,7 @@ std::string joint_text(const DrawnArm& arm, const DrawnJoint& joint) {
     text << (revolute ? ", offset_deg: " + degrees_text(joint.offset)
                       : ", offset_mm: " + millimetres_text(joint.offset));
   }
-  text << limits_entry(joint.row) << "}";
+  text << limits_entry(joint.row) << gear_entry(joint.row) << "}";
   return text.str();
 }
 

@@ -3,8 +3,11 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "diagnosis/judgement.hpp"
 #include "effects/arm_state.hpp"
@@ -134,10 +137,27 @@ std::vector<std::size_t> refused(const std::vector<Candidate>& candidates, const
   return found;
 }
 
+/// Kinds of which the model holds no effect, and beyond which nothing of them is visible: what is declared explains
+/// them.
+std::vector<UntestableKind> hidden_kinds(const FinishedLoop& loop, const std::vector<Score>& scores) {
+  std::set<std::string> hidden, seen;
+  for (const Effect& effect : loop.model.robot.effects) seen.insert(effect.kind);
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    const Candidate& candidate = loop.candidates[i];
+    if (candidate.decoy_kind != DecoyKind::none || is_symbolic(candidate.effect)) continue;
+    (scores[i].rank == 0 ? hidden : seen).insert(candidate.effect.kind);
+  }
+  std::vector<UntestableKind> kinds;
+  for (const std::string& kind : hidden)
+    if (!seen.contains(kind))
+      kinds.push_back({kind, "what is declared explains the same: these poses cannot tell it from that"});
+  return kinds;
+}
+
 }  // namespace
 
-std::vector<NotFound> not_found_beyond(const FinishedLoop& loop, const std::vector<double>& null_maxima,
-                                       const BoundOptions& options, RandomStream random) {
+void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxima, const BoundOptions& options,
+                 RandomStream random, LoopOutcome& outcome) {
   Projection beyond = loop.linearization.projection;
   const std::vector<std::size_t> set_aside = refused(loop.candidates, loop.rounds);
   for (const std::size_t index : set_aside) {
@@ -161,7 +181,8 @@ std::vector<NotFound> not_found_beyond(const FinishedLoop& loop, const std::vect
                                                    .variance = variance,
                                                    .poses = loop.linearization.fitted.poses.size()});
   mark_untestable(all, loop.robot, loop.linearization.fitted.states);
-  return all;
+  outcome.not_found = std::move(all);
+  std::ranges::move(hidden_kinds(loop, scores), std::back_inserter(outcome.untestable));
 }
 
 }  // namespace demecal::inline diagnosis

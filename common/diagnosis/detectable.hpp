@@ -60,8 +60,9 @@ struct BoundOptions {
 /// smallest_detectable() of the candidates at a loop's end, beside what the joints' smooth corrections could absorb
 /// of them: what is there to be seen may call for terms that the poses do not call for now. What was refused as
 /// implausibly large is in the data all the same: it is set aside first, `null_maxima` then being permuted anew, and
-/// has no bound. Effects that would have to be larger than is plausible of their kind are marked as not testable.
-std::vector<NotFound> not_found_beyond(const FinishedLoop& loop, const std::vector<double>& null_maxima,
-                                       const BoundOptions& options, RandomStream random);
+/// has no bound. Effects that would have to be larger than is plausible of their kind are marked as not testable. Kinds
+/// of which nothing is visible beyond the model, and none is in it, join the outcome's untestable ones.
+void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxima, const BoundOptions& options,
+                 RandomStream random, LoopOutcome& outcome);
 
 }  // namespace demecal::inline diagnosis

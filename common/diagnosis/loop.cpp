@@ -81,6 +81,7 @@ void ClosedLoop::make_candidates(const Linearization& linearization) {
   evidence.highest_ratio = options_.highest_ratio;
   evidence.stated_ratios = options_.stated_ratios;
   outcome_.untestable = untestable_kinds(evidence, options_.kinds);
+  outcome_.considered = options_.kinds;
   const bool formulas = options_.formulas && problem_.fitted.size() <= kMostPosesForFormulas;
   candidates_ =
       candidates_for(problem_.data.robot, evidence, problem_.declared, {options_.kinds, formulas, options_.decoys});
@@ -280,12 +281,10 @@ void ClosedLoop::finish(const Linearization& linearization) {
   update_rounds(outcome_, model_.robot, problem_.data.robot);
   exclude_own_forms(outcome_.rounds);
   find_next_measurements(problem_, model_, random(RandomPurpose::next_measurement), outcome_.rounds);
-  outcome_.not_found = not_found_beyond(
-      {problem_.data.robot, model_, linearization, candidates_, columns_, outcome_.rounds}, null_maxima_,
-      {options_.family_error, options_.null_draws}, random(RandomPurpose::null_distribution));
-  for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
+  find_limits({problem_.data.robot, model_, linearization, candidates_, columns_, outcome_.rounds}, null_maxima_,
+              {options_.family_error, options_.null_draws}, random(RandomPurpose::null_distribution), outcome_);
+  for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i)
     if (linearization.fitted.root_weight[i] < kOutlier) outcome_.outliers.push_back(linearization.fitted.poses[i]);
-  }
 }
 
 }  // namespace

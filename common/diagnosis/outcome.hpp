@@ -71,6 +71,7 @@ struct LoopOutcome {
   std::vector<Effect> dropped;  ///< added and taken back by the backward step
   std::vector<NotFound> not_found;
   std::vector<UntestableKind> untestable;
+  std::vector<std::string> considered{};  ///< kinds, where not all of the catalogue were
   std::vector<Decoy> decoys;
   std::vector<std::size_t> outliers;       ///< poses (in the data set) that were down-weighted as far out
   std::optional<double> repeat_scatter_m;  ///< per axis, of repeated calibration poses

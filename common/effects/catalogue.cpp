@@ -61,8 +61,8 @@ struct CatalogueLine {
 const std::vector<CatalogueLine>& catalogue_lines() {
   static const std::vector<CatalogueLine> lines{
       {&registration_law(), CauseGroup::instrument, 2, kLast, "the base's place", 0.1, 0.1},
-      {&tool_law(), CauseGroup::link_geometry, 3, kLast, "the tool point", 0.1, 0.1},
-      {&joint_offset_law(), CauseGroup::link_geometry, 1, kLast, "the zero", 0.1, 0.02},
+      {&tool_law(), CauseGroup::tool, 3, kLast, "the tool point", 0.1, 0.1},
+      {&joint_offset_law(), CauseGroup::zero, 1, kLast, "the zero", 0.1, 0.02},
       {&geometry_law(), CauseGroup::link_geometry, 0, kLast, "link geometry", 0.02, 0.02},
       {&gain_law(), CauseGroup::transmission, 8, kLast, "the gain", 0.02, 0.02},
       {&eccentricity_law(), CauseGroup::transmission, 4, 2, "eccentricity of the gear or encoder", 0.005, 0.005},

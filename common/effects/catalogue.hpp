@@ -17,6 +17,8 @@ enum class CauseGroup {
   balance_spring,
   bearing,
   link_geometry,
+  zero,
+  tool,
   heat,
   instrument,
   formula

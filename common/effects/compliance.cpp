@@ -25,6 +25,10 @@ namespace {
 
 constexpr double kSamplePayload_kg = 1.0;
 const std::string kWithPayload = "with_payload", kGravityTurn = "gravity_turn";
+constexpr std::string_view kAgainstLoad =
+    "The joint moves against its load, which nothing elastic does: see gravity_mps2, how the arm is mounted, its "
+    "masses "
+    "and payload. Do not correct programs before that is known.";
 
 /// A joint that gives way where gravity pushes it. Forms: `masses`, by the torque of known masses and the payload;
 /// `payload`, of the payload alone; `moments`, of unknown masses, whose first moments times the compliance are the
@@ -48,6 +52,9 @@ class ComplianceLaw final : public EffectLaw {
   std::vector<std::string> forms() const override { return {"masses", "payload", "moments", "tilted", "logged"}; }
   bool bears_payload(const Effect& effect, const Robot& robot) const override;
   std::string implausibility(const Effect& effect) const override;
+  std::string_view reversal(const Effect& effect) const override {
+    return effect.form != "moments" && effect.value(0) < 0.0 ? kAgainstLoad : std::string_view();
+  }
   void append_symbolic_motions(SymbolicWriter& writer) const override;
 };
 
@@ -105,9 +112,8 @@ ArmState under_turned_gravity(ArmState state, std::size_t turn) {
 
 std::vector<CoefficientLabel> ComplianceLaw::coefficients(const Effect& effect, const Robot& robot) const {
   const CoefficientLabel plain = compliance_label(robot, effect.joint);
-  if (effect.form == "tilted") {
+  if (effect.form == "tilted")
     return {plain, compliance_label(robot, effect.joint, "tilt_x"), compliance_label(robot, effect.joint, "tilt_y")};
-  }
   if (effect.form != "moments") return {plain};
   std::vector<CoefficientLabel> labels;
   for (const WeightPart& part : kept_parts(effect)) labels.push_back(part_label(robot, effect.joint, part));
@@ -130,9 +136,8 @@ void ComplianceLaw::unit_motions(const Effect& effect, const Robot& robot, const
   if (effect.form == "logged") return append(logged_torque(effect, robot, state));
   append(state.torque(robot.chain, joint));
   if (effect.form != "tilted") return;
-  for (const Eigen::Vector3d& gravity : turned_gravity(state.gravity_mps2)) {
+  for (const Eigen::Vector3d& gravity : turned_gravity(state.gravity_mps2))
     append(effort_under(robot, state, joint, gravity));
-  }
 }
 
 /// One part at a time, of gravity as it points and as a leaning mount would turn it.
@@ -201,21 +206,20 @@ std::string ComplianceLaw::formula(const Effect& effect, const Robot& robot) con
   const std::string joint = std::to_string(effect.joint + 1);
   if (effect.form == "payload") return write_joint_equation(effect, robot, {{0, "tau_payload" + joint}});
   if (effect.form == "logged") return write_joint_equation(effect, robot, {{0, "tau_logged" + joint, -1.0}});
-  if (effect.form == "tilted") {
+  if (effect.form == "tilted")
     return write_joint_equation(effect, robot, {{0, "tau" + joint}, {1, "tau_x" + joint}, {2, "tau_y" + joint}});
-  }
   if (effect.form != "moments") return write_joint_equation(effect, robot, {{0, "tau" + joint}});
   const std::array<std::string, 3> levers{"lever_", "lever_turned_x_", "lever_turned_y_"};
-  const std::string& lever = levers.at(gravity_turn(effect));
   std::vector<Term> terms;
-  for (const WeightPart& part : kept_parts(effect)) terms.push_back({terms.size(), lever + name_of(part)});
+  for (const WeightPart& part : kept_parts(effect))
+    terms.push_back({terms.size(), levers.at(gravity_turn(effect)) + name_of(part)});
   if (with_payload(effect)) terms.push_back({terms.size(), "tau_payload" + joint});
   return write_joint_equation(effect, robot, terms);
 }
 
 std::string ComplianceLaw::diagnosis(const Effect& effect, const Robot& robot) const {
-  const std::string load = load_unit(robot, effect.joint);
   const std::string gives_way = joint_name(effect.joint) + " gives way ";
+  const std::string load = load_unit(robot, effect.joint);
   const auto amount = [&](double value) { return motion_text(robot, effect.joint, value) + " per " + load; };
   if (effect.form == "payload") return gives_way + "by " + amount(effect.value(0)) + " of the payload's pull on it.";
   if (effect.form == "logged")
@@ -256,9 +260,8 @@ void ComplianceLaw::append_symbolic_motions(SymbolicWriter& writer) const {
   if (effect.form == "moments") {
     const std::size_t turn = gravity_turn(effect);
     const Eigen::Vector3d& pull = turn == 0 ? gravity : turned.at(turn - 1);
-    for (const WeightPart& part : kept_parts(effect)) {
+    for (const WeightPart& part : kept_parts(effect))
       writer.append_joint(coefficient++, lever(writer.state, effect.joint, part, pull));
-    }
     return;
   }
   if (effect.form == "logged") {
@@ -272,21 +275,18 @@ void ComplianceLaw::append_symbolic_motions(SymbolicWriter& writer) const {
   }
   writer.append_joint(coefficient++, writer.torque(effect.joint));
   if (effect.form != "tilted") return;
-  for (const Eigen::Vector3d& pull : turned) {
+  for (const Eigen::Vector3d& pull : turned)
     writer.append_joint(coefficient++, effort(writer.state, effect.joint, pull));
-  }
 }
 
 std::vector<std::string> ComplianceLaw::settings() const {
   std::vector<std::string> names{kGravityTurn};
-  for (int link = 0; link < kMaxJoints; ++link) {
+  for (int link = 0; link < kMaxJoints; ++link)
     for (int axis = 0; axis < 4; ++axis) {
       names.push_back(std::string(kKeep) + name_of({link, axis}));
       names.push_back(std::string(kLogged) + name_of({link, axis}));
     }
-  }
-  names.insert(names.end(), {"logged_friction", "logged_zero"});
-  names.push_back(kWithPayload);
+  names.insert(names.end(), {"logged_friction", "logged_zero", kWithPayload});
   return names;
 }
 

@@ -135,6 +135,10 @@ class EffectLaw {
   virtual bool bears_payload(const Effect& effect, const Robot& robot) const { return needs(effect, robot).masses; }
   /// Why no real arm has these coefficients, whatever motions they make; empty where one may.
   virtual std::string implausibility(const Effect& /*effect*/) const { return {}; }
+  /// What to do about it, where that is something else than about its cause's other effects (CauseGroup); else empty.
+  virtual std::string_view advice(const Effect& /*effect*/) const { return {}; }
+  /// What to look at where its coefficients have a sign that an arm's hardly have; empty where they have not.
+  virtual std::string_view reversal(const Effect& /*effect*/) const { return {}; }
   /// The same effect as it cannot be, to be tried as a control; none where there is no such thing.
   virtual std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& evidence) const;
   /// Whether it is nothing beyond the measured range, on average: a ripple. Others go on from what they are at its end.

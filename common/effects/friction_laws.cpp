@@ -20,6 +20,12 @@ namespace {
 /// The load that seats a gear, of the joint's median load.
 constexpr double kSeatingShare = 0.2;
 
+/// Of a joint that stops beyond where it is sent: it has no lost motion, whatever its effects are called.
+constexpr std::string_view kStopsBeyond =
+    "The joint stops beyond where it is sent: see whether the signs of approach in the data are the right way round, "
+    "and "
+    "whether the controller makes up for too much lost motion. Do not correct programs before that is known.";
+
 /// Lost motion: the joint stops half of it short on either side, or rests on the side its load pushes it to; or another
 /// joint's lost motion drags it along, as in differentials and wrists whose drives run through one another.
 class BacklashLaw final : public EffectLaw {
@@ -44,6 +50,9 @@ class BacklashLaw final : public EffectLaw {
   }
   std::vector<std::string> forms() const override { return {"approach", "seated", "coupled"}; }
   Circumstance prerequisite() const override { return Circumstance::approach; }
+  std::string_view reversal(const Effect& effect) const override {
+    return !seated(effect) && effect.value(0) < 0.0 ? kStopsBeyond : std::string_view();
+  }
   std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& /*evidence*/) const override {
     if (seated(effect) || coupled(effect)) return std::nullopt;
     return DecoyEffect{effect, DecoyKind::shuffled_approach};
@@ -127,6 +136,9 @@ class HysteresisLaw final : public EffectLaw {
     const double side = state.approach(effect.joint);
     append_joint_motion(robot, effect.joint, 0, -side, motions);
     append_joint_motion(robot, effect.joint, 1, -side * std::abs(state.torque(robot.chain, effect.joint)), motions);
+  }
+  std::string_view reversal(const Effect& effect) const override {
+    return effect.value(0) < 0.0 ? kStopsBeyond : std::string_view();
   }
   std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override {
     std::vector<Effect> effects;

@@ -71,6 +71,11 @@ class GainLaw final : public EffectLaw {
     return joint_name(effect.joint) + " moves " + share_text(std::abs(effect.value(0))) +
            (effect.value(0) < 0.0 ? " less" : " more") + " than it is told: its gear ratio or encoder scale is off.";
   }
+  std::string_view advice(const Effect& /*effect*/) const override {
+    return "Have the gear ratio and the encoder's scale in the controller checked: another gear of the same kind "
+           "changes "
+           "nothing. Corrected targets compensate it.";
+  }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& /*robot*/) const override { return {effect.joint}; }
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
   void append_symbolic_motions(SymbolicWriter& writer) const override { writer.append_joint(0, writer.own_joint()); }
@@ -92,6 +97,10 @@ class CouplingLaw final : public EffectLaw {
     const double q = state.joints()[from(effect)];
     append_joint_motion(robot, effect.joint, 0, harmonic(effect) ? std::cos(q) : q, motions);
     if (harmonic(effect)) append_joint_motion(robot, effect.joint, 1, std::sin(q), motions);
+  }
+  std::string_view advice(const Effect& /*effect*/) const override {
+    return "Another joint drags it along (a belt, a bevel wrist, a parallelogram): have the coupling in the controller "
+           "checked; another gear changes nothing. Corrected targets compensate it.";
   }
   std::vector<Effect> proposals(const Robot& robot, const Evidence& /*evidence*/) const override {
     std::vector<Effect> effects;

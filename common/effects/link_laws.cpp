@@ -137,6 +137,11 @@ class LinkBendingLaw final : public EffectLaw {
   bool requires_setting(const Effect& /*effect*/, const std::string& /*name*/) const override { return false; }
   std::vector<std::string> forms() const override { return {"masses", "moments"}; }
   std::string implausibility(const Effect& effect) const override;
+  std::string_view advice(const Effect& effect) const override {
+    if (effect.joint > 0) return {};
+    return "What carries the arm tilts: have the base's bolts, what it stands on and the bearing of joint 1 checked. "
+           "Corrected targets compensate it for the payload that was measured.";
+  }
   void append_symbolic_motions(SymbolicWriter& writer) const override;
 
  private:

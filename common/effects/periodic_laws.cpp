@@ -2,6 +2,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -94,6 +95,7 @@ class EccentricityLaw final : public JointWaveLaw {
 };
 
 constexpr double kRipple = 6.0;       // so many periods a turn and more average out where nothing is known of them
+constexpr int kLinesOfGear = 4;       // of an input turn, once to so many times
 constexpr int kLowestRatio = 3;       // one and two periods a turn are eccentricity
 constexpr double kSmoothRatio = 3.0;  // up to which a joint correction holds it
 constexpr double kImpossibleRatio =
@@ -105,11 +107,10 @@ class GearHarmonicLaw final : public JointWaveLaw {
   GearHarmonicLaw() : JointWaveLaw("ratio") {}
   std::string_view kind() const override { return "gear_harmonic"; }
   std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override {
-    const std::vector<double> ratios = ratios_to_try(evidence);
     std::vector<Effect> effects;
     for (int joint = 0; joint < robot.chain.size(); ++joint) {
       if (!is_revolute(robot.chain, joint)) continue;
-      for (const double ratio : ratios) {
+      for (const double ratio : ratios_to_try(robot.chain.joints[static_cast<std::size_t>(joint)].gear, evidence)) {
         effects.push_back({.kind = "gear_harmonic", .joint = joint, .settings = {{"ratio", ratio}}});
       }
     }
@@ -119,7 +120,8 @@ class GearHarmonicLaw final : public JointWaveLaw {
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     return joint_name(effect.joint) + " swings by " +
            motion_text(robot, effect.joint, std::hypot(effect.value(0), effect.value(1))) + " to either side, " +
-           times_per_turn(periods(effect)) + ": the transmission error of a gear stage.";
+           times_per_turn(periods(effect)) + ": the transmission error of " +
+           of_gear(robot.chain.joints[static_cast<std::size_t>(effect.joint)].gear, periods(effect)) + '.';
   }
   bool is_harmonic() const override { return true; }
   bool is_smooth(const Effect& effect) const override { return periods(effect) <= kSmoothRatio; }
@@ -130,14 +132,36 @@ class GearHarmonicLaw final : public JointWaveLaw {
   }
 
  private:
-  static std::vector<double> ratios_to_try(const Evidence& evidence) {
-    std::vector<double> ratios;
+  /// The scan, what is stated of all joints, and the lines of the joint's own gear: once to four times an input turn,
+  /// and of a cycloidal one the passing of its pins, of which it has one more than its ratio.
+  static std::vector<double> ratios_to_try(const std::optional<Gear>& gear, const Evidence& evidence) {
+    std::vector<double> ratios, stated = evidence.stated_ratios;
+    if (gear)
+      for (int line = 1; line <= kLinesOfGear; ++line) stated.push_back(line * gear->ratio);
+    if (gear && gear->kind == GearKind::cycloidal) stated.push_back(gear->ratio + 1.0);
     for (int ratio = kLowestRatio; ratio <= evidence.highest_ratio; ++ratio) ratios.push_back(ratio);
-    for (const double stated : evidence.stated_ratios) {
-      const bool scanned = stated == std::round(stated) && stated <= evidence.highest_ratio;
-      if (!scanned && stated > 0.0) ratios.push_back(stated);
-    }
+    for (const double each : stated)
+      if (each > 0.0 && std::ranges::find(ratios, each) == ratios.end()) ratios.push_back(each);
     return ratios;
+  }
+
+  /// "a strain wave gear, 2 times an input turn", where the joint's gear is stated.
+  static std::string of_gear(const std::optional<Gear>& gear, double periods) {
+    constexpr std::array<const char*, 4> kNames{"a strain wave gear", "a cycloidal gear", "a planetary gear",
+                                                "a spur gear"};
+    constexpr double kSame = 1e-6;
+    if (!gear) return "a gear stage";
+    const std::string name = kNames.at(static_cast<std::size_t>(gear->kind));
+    if (gear->kind == GearKind::cycloidal && std::abs(periods - gear->ratio - 1.0) < kSame)
+      return name + ", as its pins pass";
+    const double lines = std::round(periods / gear->ratio);
+    if (lines < 1.0 || std::abs(periods - lines * gear->ratio) > kSame * periods)
+      return "a stage behind or before its gear, of whose ratio, " + rounded_text(gear->ratio) + ", it is no multiple";
+    return name + ", " +
+           (lines == 1.0   ? "once"
+            : lines == 2.0 ? "twice"
+                           : rounded_text(lines) + " times") +
+           " an input turn";
   }
 };
 

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string>
 #include <string_view>
+#include <vector>
 
+#include "effects/effect.hpp"
 #include "errors/check.hpp"
 
 namespace demecal::inline explanations {
@@ -17,7 +21,7 @@ struct GroupWords {
   std::string_view advice;
 };
 
-constexpr std::array<GroupWords, 9> kGroups{{
+constexpr std::array<GroupWords, 11> kGroups{{
     {CauseGroup::transmission, "transmission", "gears", "",
      "Corrected targets compensate it. Where it is more than the gear's maker states as running error, have its "
      "mounting "
@@ -35,6 +39,10 @@ constexpr std::array<GroupWords, 9> kGroups{{
      "Corrected targets compensate it. Where it grows, have the bearing's preload checked."},
     {CauseGroup::link_geometry, "link_geometry", "geometry of the link", "",
      "Declare the geometry, so that all links are fitted together."},
+    {CauseGroup::zero, "zero", "zero", "",
+     "Master the joint again, or declare the joint offsets, so that all are fitted together."},
+    {CauseGroup::tool, "tool", "tool point", "tool point",
+     "Teach the tool point again, or declare the tool, so that it is fitted with all else."},
     {CauseGroup::heat, "heat", "temperature", "temperature of the arm",
      "Let the robot warm up before it works, or state its temperature when programs are corrected."},
     {CauseGroup::instrument, "instrument", "instrument", "instrument or its mounting",
@@ -85,8 +93,19 @@ std::string to_string(const ErrorCause& cause) {
   return std::string(words.of_joint) + " of joint " + std::to_string(cause.joint + 1);
 }
 
-std::string advice_on(const ErrorCause& cause) {
-  return std::string(group_words(cause.group).advice);
+std::string advice_on(const ErrorCause& cause, const CorrectedRobot& robot) {
+  const auto is_reversed = [&](std::size_t i) { return !law_of(robot.effects[i]).reversal(robot.effects[i]).empty(); };
+  const bool reversed = !cause.effects.empty() && std::ranges::all_of(cause.effects, is_reversed);
+  std::vector<std::string_view> all;
+  for (const std::size_t i : cause.effects) {
+    const EffectLaw& law = law_of(robot.effects[i]);
+    std::string_view one = reversed ? law.reversal(robot.effects[i]) : law.advice(robot.effects[i]);
+    if (one.empty()) one = group_words(cause.group).advice;
+    if (std::ranges::find(all, one) == all.end()) all.push_back(one);
+  }
+  std::string text;
+  for (const std::string_view one : all) text += (text.empty() ? "" : " ") + std::string(one);
+  return text;
 }
 
 }  // namespace demecal::inline explanations

@@ -27,12 +27,12 @@ ErrorCause cause_at(std::string_view kind, int joint);
 /// catalogue does not name is a cause of its own for every joint.
 std::vector<ErrorCause> causes_of(const CorrectedRobot& robot);
 
-/// The word of files: "transmission", "lost_motion", "elasticity", "bearing", "link_geometry", "heat", "instrument",
-/// "formula".
+/// The word of files: "transmission", "lost_motion", "elasticity", "balance_spring", "bearing", "link_geometry",
+/// "zero", "tool", "heat", "instrument", "formula".
 std::string_view to_string(CauseGroup group);
 /// "gears of joint 2", for people.
 std::string to_string(const ErrorCause& cause);
 /// What to do about it: a sentence or two.
-std::string advice_on(const ErrorCause& cause);
+std::string advice_on(const ErrorCause& cause, const CorrectedRobot& robot);
 
 }  // namespace demecal::inline explanations

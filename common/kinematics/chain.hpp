@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +29,15 @@ enum class JointType { revolute, prismatic };
 enum class LinkParameter { theta, d, a, alpha, beta };
 inline constexpr int kLinkParameters = 5;
 
+/// What drives a joint, as its maker states it.
+enum class GearKind { strain_wave, cycloidal, planetary, spur };
+struct Gear {
+  GearKind kind = GearKind::strain_wave;
+  double ratio = 1.0;  ///< turns of its input for a turn of the joint, above 1
+
+  bool operator==(const Gear&) const = default;
+};
+
 /// One joint and its link. The joint's variable adds to `theta_rad` (revolute) or to `d_m` (prismatic).
 struct Joint {
   JointType type = JointType::revolute;
@@ -39,6 +49,7 @@ struct Joint {
   double lower = 0.0;    ///< limit, rad or m
   double upper = 0.0;    ///< limit, rad or m
   bool endless = false;  ///< turns on and on: its limits are a whole turn either way and nobody is held to them
+  std::optional<Gear> gear{};
 
   double& parameter(LinkParameter which);
   double parameter(LinkParameter which) const;

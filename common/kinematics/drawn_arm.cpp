@@ -120,8 +120,11 @@ EquivalentChain chain_by_axes(const DrawnArm& arm) {
   EquivalentChain result{{.convention = Convention::modified_dh, .joints = {}}, {}};
   std::vector<Joint>& rows = result.chain.joints;
   for (const DrawnJoint& joint : arm.joints) {
-    rows.push_back(
-        {.type = joint.row.type, .lower = joint.row.lower, .upper = joint.row.upper, .endless = joint.row.endless});
+    rows.push_back({.type = joint.row.type,
+                    .lower = joint.row.lower,
+                    .upper = joint.row.upper,
+                    .endless = joint.row.endless,
+                    .gear = joint.row.gear});
   }
   result.chain.base = drawn.front() * turn_to_axis(axes.front());
   RowMaker maker(result.chain.base);

@@ -22,7 +22,7 @@
 namespace demecal::inline next_measurement {
 namespace {
 
-constexpr int kMostProposedPoses = 9999;
+constexpr int kMostProposedPoses = 300;  // more nobody measures for one question
 constexpr double kAboutEqual = 1.25;     ///< times the fewest stops
 constexpr double kContained = 1e-6;      ///< of the signal's square may be left of a signal that a rival contains
 constexpr double kPart = 1e-3;           ///< of the signal's square: coefficients that do less have no part in it

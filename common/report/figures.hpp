@@ -99,7 +99,8 @@ std::string noise_sentence(const NoiseEntry& noise);
 
 /// Whether a decoy won, or explains more than noise should; empty without decoys.
 std::string decoys_sentence(const std::vector<DecoyEntry>& decoys);
-/// That no effect is sure, since a decoy fared as none should; empty where none did, or no effect was added.
+/// Why effects that were added are not sure: a decoy fared as none should, other kinds were not considered, or no
+/// unseen poses confirm them. Empty where there is no such reason, or no effect was added.
 std::string doubt_sentence(const Report& report);
 
 /// What the model's rms error of each set is without suspected outliers, and with them; empty where there are none.

@@ -206,14 +206,16 @@ std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vect
   return members;
 }
 
-/// What to do about it. A joint that stops beyond where it is sent has no lost motion, whatever its effects are called.
-std::string advice_for(const ErrorCause& cause, const CorrectedRobot& robot) {
-  const auto goes_beyond = [&](std::size_t effect) { return robot.effects[effect].value(0) < 0.0; };
-  if (cause.group != CauseGroup::lost_motion || !std::ranges::all_of(cause.effects, goes_beyond))
-    return advice_on(cause);
-  return "The joint stops beyond where it is sent: see whether the signs of approach in the data are the right way "
-         "round, and whether the controller makes up for too much lost motion. Do not correct programs before that is "
-         "known.";
+/// Whether the cause may be lost motion in truth: without recorded sides that follows a joint's position, since high
+/// values are come to from below, and the weight that the position gives it.
+bool may_be_lost_motion(const ErrorCause& cause, const CorrectedRobot& robot, const Report& report) {
+  const auto is_of_sides = [](const UntestableEntry& unseen) {
+    const EffectLaw* const law = find_law(unseen.kind);
+    return law != nullptr && law->prerequisite() == Circumstance::approach;
+  };
+  const auto follows_position = [&](std::size_t i) { return law_of(robot.effects[i]).is_smooth(robot.effects[i]); };
+  return std::ranges::any_of(report.untestable, is_of_sides) &&
+         (cause.group == CauseGroup::elasticity || std::ranges::any_of(cause.effects, follows_position));
 }
 
 void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Robot& described, Report& report) {
@@ -226,11 +228,18 @@ void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Ro
                      .with_mm = if_finite(cost.with_mm),
                      .share_of_error = if_finite(cost.share),
                      .interval_mm = {cost.interval_mm.begin(), cost.interval_mm.end()},
-                     .advice = advice_for(cost.cause, robot)};
+                     .advice = advice_on(cost.cause, robot)};
     if (cost.cause.joint >= 0) entry.joint = as_count(cost.cause.joint) + 1;
     for (const std::size_t effect : cost.cause.effects)
       entry.effects.push_back(effect_entry(robot.effects[effect], described).name());
     entry.alternatives = alternatives_to(cost.cause, entry.effects, report.rounds);
+    if (may_be_lost_motion(cost.cause, robot, report)) {
+      entry.alternatives.push_back(to_string(ErrorCause{.group = CauseGroup::lost_motion, .joint = cost.cause.joint}));
+      entry.advice =
+          "The sides that joints come from are not recorded, and lost motion looks like this then: record them "
+          "(approach "
+          "columns) before anything is done, and do not correct programs by it.";
+    }
     report.causes.push_back(std::move(entry));
   }
   for (const FrontPoint& point : budget.front) {
@@ -244,6 +253,7 @@ void set_loop(const LoopOutcome& loop, const Robot& described, Report& report) {
   for (const Effect& effect : loop.dropped) report.dropped.push_back(effect_entry(effect, described));
   for (const NotFound& missing : loop.not_found) report.not_found.push_back(not_found_entry(missing, described));
   for (const UntestableKind& each : loop.untestable) report.untestable.push_back({each.kind, each.reason});
+  report.considered = loop.considered;
   for (const Decoy& decoy : loop.decoys)
     report.decoys.push_back({decoy.name, if_finite(decoy.best_gain_nats), if_finite(decoy.p_left), decoy.won});
   report.stopped = to_string(loop.stopped);

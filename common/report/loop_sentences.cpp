@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstddef>
 #include <cstdint>
@@ -9,10 +10,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "data/text.hpp"
 #include "effects/catalogue.hpp"
+#include "effects/effect.hpp"
 #include "prediction/measurement.hpp"
 #include "report/report.hpp"
 
@@ -42,6 +46,29 @@ const DecoyEntry& rarest_decoy(const std::vector<DecoyEntry>& decoys) {
 bool is_rare(const DecoyEntry& decoy) {
   constexpr double kRare = 0.05;
   return decoy.p_left.value_or(1.0) <= kRare;
+}
+
+/// "joints, load and temperature": on which of these what is left was looked at.
+std::string dependences(const Report& report) {
+  struct Dependence {
+    std::string_view words;
+    Circumstance circumstance;
+  };
+  constexpr std::array<Dependence, 5> kAll{{{"joints", Circumstance::none},
+                                            {"load", Circumstance::masses},
+                                            {"approach", Circumstance::approach},
+                                            {"temperature", Circumstance::temperature},
+                                            {"time", Circumstance::time}}};
+  std::vector<std::string> words;
+  for (const Dependence& one : kAll) {
+    const auto lacks_it = [&](const UntestableEntry& unseen) {
+      const EffectLaw* const law = find_law(unseen.kind);
+      return law != nullptr && law->prerequisite() == one.circumstance;
+    };
+    if (one.circumstance == Circumstance::none || std::ranges::none_of(report.untestable, lacks_it))
+      words.emplace_back(one.words);
+  }
+  return listed_words(words, "or");
 }
 
 }  // namespace
@@ -95,11 +122,10 @@ std::string statistics_sentences(const Report& report) {
   }
   if (report.structure_left_p) {
     constexpr double kDetected = 0.05;
-    const char* const sentence =
-        *report.structure_left_p > kDetected
-            ? "No remaining dependence on joints, load, approach, temperature or time was detected (p = {})."
-            : "What is left still depends on joints, load, approach, temperature or time (p = {}).";
-    add(fmt::format(fmt::runtime(sentence), probability(report.structure_left_p)));
+    const char* const sentence = *report.structure_left_p > kDetected
+                                     ? "No remaining dependence on {} was detected (p = {})."
+                                     : "What is left still depends on {} (p = {}).";
+    add(fmt::format(fmt::runtime(sentence), dependences(report), probability(report.structure_left_p)));
   }
   return text;
 }
@@ -110,7 +136,8 @@ std::string noise_sentence(const NoiseEntry& noise) {
     return independent + ", taken to be independent from pose to pose: what poses share was not estimated";
   std::vector<std::string> parts;
   if (noise.joint_repeatability_mrad > 0.0)
-    parts.push_back(fmt::format("joints repeat to {:.3f} mrad", *noise.joint_repeatability_mrad));
+    parts.push_back(
+        fmt::format("joints repeat to {:.3f} mrad, or err by what was not tried", *noise.joint_repeatability_mrad));
   if (noise.shared_by_repeats_mm > 0.0)
     parts.push_back(fmt::format("repeats of a pose share {:.3f} mm", *noise.shared_by_repeats_mm));
   if (noise.shared_in_order_mm > 0.0) {
@@ -158,8 +185,10 @@ std::string outliers_sentence(const Report& report) {
   return text.empty() ? text : "Without suspected outliers the rms error is " + text + ".";
 }
 
-std::string doubt_sentence(const Report& report) {
-  if (!report.added_any() || report.decoys.empty()) return {};
+namespace {
+
+std::string decoy_doubt(const Report& report) {
+  if (report.decoys.empty()) return {};
   const auto winner = std::ranges::find_if(report.decoys, &DecoyEntry::won);
   const bool won = winner != report.decoys.end();
   const DecoyEntry& decoy = won ? *winner : rarest_decoy(report.decoys);
@@ -168,6 +197,20 @@ std::string doubt_sentence(const Report& report) {
       "None of the effects is sure: {}, which cannot exist, explains {} (see controls). The noise is not what it was "
       "taken for. Before you act on them, measure again, with the poses in random order.",
       decoy.name, won ? "the error better than any real effect" : "more than noise should");
+}
+
+}  // namespace
+
+std::string doubt_sentence(const Report& report) {
+  if (!report.added_any()) return {};
+  std::string text = decoy_doubt(report);
+  const auto add = [&text](const std::string& sentence) { text += (text.empty() ? "" : " ") + sentence; };
+  if (!report.considered.empty())
+    add(fmt::format("Only {} was looked for: other causes may explain the same.",
+                    listed_words(report.considered, "and")));
+  if (report.poses.validation == 0)
+    add("There were no validation poses: nothing that the fit did not see confirms the effects.");
+  return text;
 }
 
 }  // namespace demecal::inline report

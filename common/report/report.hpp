@@ -274,6 +274,7 @@ struct Report {
   std::vector<EffectEntry> dropped;  ///< added, and taken back
   std::vector<NotFoundEntry> not_found;
   std::vector<UntestableEntry> untestable;
+  std::vector<std::string> considered{};  ///< kinds, where not all of the catalogue were
   std::vector<DecoyEntry> decoys;
   std::string stopped = "not_run";
   std::optional<double> lack_of_fit_p, explained_share, structure_left_p;

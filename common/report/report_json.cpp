@@ -207,10 +207,10 @@ bool has_figures(const ErrorBySet& errors) {
 
 void loop_fields(auto& visit, Like<Report> auto& report) {
   visit("causes", report.causes, "front", report.front, "rounds", report.rounds, "dropped", report.dropped, "not_found",
-        report.not_found, "unseen", report.untestable, "decoys", report.decoys, "stopped", report.stopped,
-        "lack_of_fit_p", report.lack_of_fit_p, "explained_share", report.explained_share, "structure_left_p",
-        report.structure_left_p, "noise", report.noise, "candidates", report.candidates, "permutations",
-        report.null_draws);
+        report.not_found, "unseen", report.untestable, "considered", report.considered, "decoys", report.decoys,
+        "stopped", report.stopped, "lack_of_fit_p", report.lack_of_fit_p, "explained_share", report.explained_share,
+        "structure_left_p", report.structure_left_p, "noise", report.noise, "candidates", report.candidates,
+        "permutations", report.null_draws);
 }
 
 void fields(auto& visit, Like<Report> auto& report) {

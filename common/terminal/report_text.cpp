@@ -93,12 +93,11 @@ std::string lengths(const std::vector<LengthErrorEntry>& all) {
 std::string stations(const Report& report) {
   if (report.stations.empty()) return {};
   const auto number = [](const std::optional<double>& mm) { return mm ? fmt::format("{:.3f}", *mm) : "–"; };
-  std::string text =
-      fmt::format("\n  {:<40}{:>10}{:>9}{:>9}{:>9}\n", "stations, rms in mm", "poses", "tool fit", "before", "after");
+  std::string text = fmt::format("\n  {:<50}{:>9}{:>9}{:>9}\n", "stations, rms in mm", "tool fit", "before", "after");
   for (const StationEntry& one : report.stations) {
     const auto line = [&](const char* set, const SetErrors ErrorBySet::*errors) {
       if (!(one.after.*errors).rms_mm) return;
-      text += fmt::format("    {:<38}{:>10}{:>9}{:>9}{:>9}\n", fmt::format("{} ({})", one.name, set), one.poses,
+      text += fmt::format("    {:<48}{:>9}{:>9}{:>9}\n", fmt::format("{}, {} poses: {}", one.name, one.poses, set),
                           number((one.registered.*errors).rms_mm), number((one.before.*errors).rms_mm),
                           number((one.after.*errors).rms_mm));
     };

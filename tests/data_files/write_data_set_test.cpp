@@ -41,6 +41,8 @@ Robot random_robot(RandomStream& random) {
                                   .beta_rad = random.chance(0.3) ? random.real(-1e-3, 1e-3) : 0.0,
                                   .lower = random.real(-3.0, -1.0),
                                   .upper = random.real(1.0, 3.0)});
+    if (is_revolute(robot.chain.joints.back()) && random.chance(0.3))
+      robot.chain.joints.back().gear = Gear{static_cast<GearKind>(random.index(4)), random.real(2.0, 200.0)};
     robot.masses.push_back({random.real(0.0, 20.0), {random.real(), random.real(), random.real()}});
   }
   robot.chain.tool_m = {random.real(), random.real(), random.real()};
@@ -107,6 +109,7 @@ void expect_same_robot(const Robot& back, const Robot& robot) {
     expect_same(read.beta_rad, written.beta_rad);
     expect_same(read.lower, written.lower);
     expect_same(read.upper, written.upper);
+    EXPECT_EQ(read.gear, written.gear);
     EXPECT_EQ(back.masses[i].mass_kg, robot.masses[i].mass_kg);
     expect_same_vector(back.masses[i].centre_m, robot.masses[i].centre_m);
   }

@@ -41,12 +41,15 @@ TEST(Causes, AreWhatAnEngineerCountsAsOne) {
 TEST(Causes, HaveAWordAndAnAdviceForEveryKindOfTheCatalogue) {
   std::set<std::string> words;
   for (const EffectLaw* law : catalogue()) {
-    const ErrorCause cause{.group = cause_of(law->kind()).group, .joint = 0};
+    CorrectedRobot robot;
+    robot.effects = {{.kind = std::string(law->kind()), .joint = 0}};
+    robot.effects.front().values = {1.0};
+    const ErrorCause cause{.group = cause_of(law->kind()).group, .joint = 0, .effects = {0}};
     words.insert(std::string(to_string(cause.group)));
     EXPECT_FALSE(to_string(cause).empty()) << law->kind();
-    EXPECT_TRUE(advice_on(cause).ends_with('.')) << law->kind();
+    EXPECT_TRUE(advice_on(cause, robot).ends_with('.')) << law->kind();
   }
-  EXPECT_EQ(words.size(), 9U);
+  EXPECT_EQ(words.size(), 11U);
 }
 
 /// An arm whose joint 2 has lost motion, and whose joint 3 gives way a little: found, and judged.
