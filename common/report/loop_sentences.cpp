@@ -206,7 +206,7 @@ std::string doubt_sentence(const Report& report) {
   std::string text = decoy_doubt(report);
   const auto add = [&text](const std::string& sentence) { text += (text.empty() ? "" : " ") + sentence; };
   if (!report.considered.empty())
-    add(fmt::format("Only {} was looked for: other causes may explain the same.",
+    add(fmt::format("Nothing but {} was looked for: other causes may explain the same.",
                     listed_words(report.considered, "and")));
   if (report.poses.validation == 0)
     add("There were no validation poses: nothing that the fit did not see confirms the effects.");

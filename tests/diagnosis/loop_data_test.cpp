@@ -139,6 +139,16 @@ TEST(ClosedLoopData, AreOnlyAskedForTheKindsWanted) {
     EXPECT_TRUE(round.effect.kind == "thermal_offset" || round.effect.kind == "gain");
   }
   EXPECT_EQ(result.outcome.candidates, 12);
+  EXPECT_EQ(result.outcome.considered, options.kinds);
+}
+
+/// A scale of the instrument is one of all lengths, which declared links hold.
+TEST(ClosedLoopData, SayWhichKindsTheDeclaredModelHolds) {
+  const DataSet data = simulate(loose_arm(parallel_arm(), 8));
+  DeclaredModel links = kZeroed;
+  links.tool = links.geometry = true;
+  EXPECT_THAT(unseen(run_loop(data, links, quick()).outcome), Contains("sensor_scale"));
+  EXPECT_THAT(unseen(run_loop(data, kZeroed, quick()).outcome), ::testing::Not(Contains("sensor_scale")));
 }
 
 TEST(ClosedLoopData, GiveTheFloorWherePosesAreRepeated) {

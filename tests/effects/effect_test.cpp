@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <optional>
+#include <set>
+#include <string>
 
 #include "laden_arm.hpp"
 
@@ -145,6 +148,41 @@ TEST(MeasuredRange, ASlowEffectGoesOverToItsOtherEndAcrossTheUnmeasuredTurnWitho
     for (const auto& [coefficient, size] : now) EXPECT_NEAR(size, last.at(coefficient), 0.03) << i;
     last = now;
   }
+}
+
+std::set<double> ratios_tried(const Robot& robot, int joint) {
+  Evidence evidence;
+  evidence.highest_ratio = 20;
+  std::set<double> ratios;
+  for (const Effect& effect : find_law("gear_harmonic")->proposals(robot, evidence))
+    if (effect.joint == joint) ratios.insert(effect.setting("ratio"));
+  return ratios;
+}
+
+TEST(GearHarmonics, AreTriedAtTheLinesOfAStatedGearAndNamedByIt) {
+  RandomStream stream{33, 0};
+  Robot robot = laden_arm(stream, Arm::sliding_standard);
+  int joint = 0;
+  while (!is_revolute(robot.chain, joint)) ++joint;
+  std::optional<Gear>& gear = robot.chain.joints[static_cast<std::size_t>(joint)].gear;
+  const std::set<double> plain = ratios_tried(robot, joint);
+  EXPECT_EQ(*plain.rbegin(), 20.0);
+  gear = Gear{GearKind::strain_wave, 80.5};
+  std::set<double> with_gear = ratios_tried(robot, joint);
+  for (const double line : {80.5, 161.0, 241.5, 322.0}) EXPECT_EQ(with_gear.erase(line), 1U) << line;
+  EXPECT_EQ(with_gear, plain);
+  const auto said = [&](double ratio) {
+    return find_law("gear_harmonic")
+        ->diagnosis({.kind = "gear_harmonic", .joint = joint, .settings = {{"ratio", ratio}}, .values = {1e-4, 0.0}},
+                    robot);
+  };
+  EXPECT_NE(said(161.0).find("a strain wave gear, twice an input turn."), std::string::npos) << said(161.0);
+  EXPECT_NE(said(100.0).find("of whose ratio, 80.5, it is no multiple"), std::string::npos) << said(100.0);
+  gear = Gear{GearKind::cycloidal, 59.0};
+  EXPECT_TRUE(ratios_tried(robot, joint).contains(60.0));
+  EXPECT_NE(said(60.0).find("as its pins pass"), std::string::npos) << said(60.0);
+  gear.reset();
+  EXPECT_NE(said(60.0).find("a gear stage."), std::string::npos) << said(60.0);
 }
 
 }  // namespace

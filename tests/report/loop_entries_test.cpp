@@ -174,5 +174,60 @@ TEST(EffectClass, IsNoneWhereNoRivalIsAsGood) {
   EXPECT_EQ(class_sentence({}), "");
 }
 
+/// The only cause of an arm with one effect, by poses that show the kinds but `unseen`.
+CauseEntry cause_of_one(Effect effect, const std::vector<std::string>& unseen) {
+  Robot described;
+  described.chain.joints.resize(6);
+  CorrectedRobot robot;
+  robot.chain = described.chain;
+  robot.effects = {std::move(effect)};
+  ErrorBudget budget;
+  budget.causes = {{.cause = causes_of(robot).front()}};
+  Report report;
+  for (const std::string& kind : unseen) report.untestable.push_back({kind, "not recorded"});
+  set_causes(budget, robot, described, report);
+  return report.causes.at(0);
+}
+
+TEST(CauseEntry, MayBeLostMotionWhereSidesAreNotRecorded) {
+  const Effect gain{.kind = "gain", .joint = 1, .values = {-1e-4}};
+  const CauseEntry unsure = cause_of_one(gain, {"backlash", "drift"});
+  EXPECT_EQ(unsure.alternatives, std::vector<std::string>{"lost motion of joint 2"});
+  EXPECT_NE(unsure.advice.find("do not correct programs by it"), std::string::npos);
+  EXPECT_TRUE(cause_of_one(gain, {"drift"}).alternatives.empty());
+  const Effect ripple{.kind = "gear_harmonic", .joint = 1, .settings = {{"ratio", 50.0}}, .values = {1e-4, 0.0}};
+  EXPECT_TRUE(cause_of_one(ripple, {"backlash"}).alternatives.empty()) << "no side follows that";
+}
+
+TEST(CauseEntry, SaysWhereASignIsNoArms) {
+  const auto says = [](const std::string& kind, double value, const std::string& words, const std::string& form = "") {
+    const Effect effect{.kind = kind, .joint = 1, .form = form, .values = {value, 0.0}};
+    return cause_of_one(effect, {}).advice.find(words) != std::string::npos;
+  };
+  EXPECT_TRUE(says("compliance", -1e-6, "against its load"));
+  EXPECT_FALSE(says("compliance", 1e-6, "against its load"));
+  EXPECT_TRUE(says("backlash", -1e-4, "stops beyond where it is sent"));
+  EXPECT_FALSE(says("backlash", 1e-4, "stops beyond"));
+  EXPECT_FALSE(says("backlash", -1e-4, "signs of approach", "seated")) << "that form has none";
+  EXPECT_TRUE(says("gain", 1e-4, "gear ratio"));
+  EXPECT_TRUE(says("coupling", 1e-4, "Another joint drags it"));
+  EXPECT_TRUE(says("joint_offset", 1e-4, "Master the joint"));
+}
+
+TEST(Doubt, IsSaidOfWhatWasNotLookedForAndNotConfirmed) {
+  Report report;
+  report.poses.validation = 20;
+  report.considered = {"backlash", "gain"};
+  EXPECT_EQ(doubt_sentence(report), "") << "nothing was added";
+  RoundEntry added;
+  added.verdict = to_string(Verdict::added);
+  report.rounds = {added};
+  EXPECT_EQ(doubt_sentence(report), "Nothing but backlash and gain was looked for: other causes may explain the same.");
+  report.considered.clear();
+  EXPECT_EQ(doubt_sentence(report), "");
+  report.poses.validation = 0;
+  EXPECT_NE(doubt_sentence(report).find("no validation poses"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace demecal
