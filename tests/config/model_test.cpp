@@ -110,6 +110,18 @@ TEST(ModelFile, WithoutKnownCoefficientsReadsThemAsZero) {
   EXPECT_EQ(written_and_read(model).robot.effects[0].values, (std::vector<double>{0.0, 0.0}));
 }
 
+TEST(ModelFile, HoldsASpringThatIsShortestAtAnyAngle) {
+  RandomStream stream{77};
+  CalibratedModel model = random_model(stream);
+  for (const double shortest_rad : {-1.5, 0.0, 2.0}) {
+    model.robot.effects = {{.kind = "balancer",
+                            .joint = 1,
+                            .settings = {{"fixed_m", 0.25}, {"moving_m", 0.4}, {"shortest_rad", shortest_rad}},
+                            .values = {1e-4, 2e-5}}};
+    EXPECT_EQ(written_and_read(model).robot.effects.at(0).setting("shortest_rad"), shortest_rad);
+  }
+}
+
 TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   RandomStream stream{999};
   CalibratedModel model = random_model(stream);
