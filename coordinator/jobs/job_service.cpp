@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -77,7 +78,27 @@ std::string require_tolerance(const std::string& text) {
 
 JobService::JobService(JobServiceOptions options)
     : options_(std::move(options)), folders_(options_.folder), queue_(options_.queue) {
-  for (const JobId& id : folders_.jobs()) queue_.restore(id, folders_.record(id));
+  for (const JobId& id : folders_.jobs()) {
+    try {
+      queue_.restore(id, folders_.record(id));
+    } catch (const std::system_error& error) {
+      say(std::string(error.what()) + "; the job is left out");
+    }
+  }
+}
+
+void JobService::say(const std::string& trouble) {
+  if (trouble != said_) std::fprintf(stderr, "%s\n", trouble.c_str());
+  said_ = trouble;
+}
+
+void JobService::save_or_say(const JobId& id) {
+  try {
+    folders_.save(id, queue_.record(id));
+    said_.clear();
+  } catch (const std::system_error& error) {
+    say(error.what());
+  }
 }
 
 ServiceAnswer JobService::answer(const ServiceRequest& request) {
@@ -166,9 +187,11 @@ void JobService::change(const JobId& id, const ServiceRequest& request) {
   if (path.size() != 3) refuse_unknown();
   const std::lock_guard lock(mutex_);
   if (path[2] == "make") {
-    queue_.add(id);
+    JobQueue changed = queue_;  // takes effect where all else went well
+    changed.add(id);
     folders_.make(id);
-    folders_.save(id, queue_.record(id));
+    folders_.save(id, changed.record(id));
+    queue_ = std::move(changed);
   } else if (path[2] == "remove") {
     queue_.remove(id);
     folders_.remove(id);
@@ -177,7 +200,7 @@ void JobService::change(const JobId& id, const ServiceRequest& request) {
   } else if (path[2] == "stop") {
     const bool is_running = queue_.ask_to_stop(id);
     is_stopping_ = is_stopping_ || is_running;
-    folders_.save(id, queue_.record(id));
+    save_or_say(id);
   } else {
     refuse_unknown();
   }
@@ -206,8 +229,10 @@ void JobService::put(const JobId& id, const std::string& file, const std::string
   if (all_bytes > options_.bytes_each)
     throw Refusal(Refusal::Kind::limit,
                   "the files of a job have at most " + std::to_string(options_.bytes_each >> 20) + " MB");
-  queue_.change_files(id);
-  folders_.save(id, queue_.record(id));
+  JobQueue changed = queue_;
+  changed.change_files(id);
+  folders_.save(id, changed.record(id));
+  queue_ = std::move(changed);
   folders_.put_input(id, file, bytes);
 }
 
@@ -244,9 +269,11 @@ void JobService::ask_to_run(const JobId& id, const ServiceRequest& request) {
     order.commands.push_back({"certify", "results/model.yaml", "input/" + files.data.front(), "--tolerance",
                               require_tolerance(tolerance->second), "--out", "results"});
   }
-  queue_.ask_to_run(id);
+  JobQueue changed = queue_;
+  changed.ask_to_run(id);
+  folders_.save(id, changed.record(id));
+  queue_ = std::move(changed);
   orders_[id] = std::move(order);
-  folders_.save(id, queue_.record(id));
 }
 
 }  // namespace demecal
