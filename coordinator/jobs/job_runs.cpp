@@ -36,6 +36,7 @@ void JobService::begin(const JobId& id) {
   is_stopping_ = false;
   command_ = 0;
   folders_.save(id, queue_.record(id));
+  folders_.remove_certificates(id);
   began_ = Clock::now();
   begin_command(id, orders_[id].goes_on);
 }

@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -137,6 +138,20 @@ TEST_F(ServedJobs, KeepTheirStateWhereAnUploadCannotBeSaved) {
   break_record("first");
   EXPECT_EQ(post(service, {"jobs", "first", "files", "job.yaml"}, "demecal_job: 1\n").status, 500);
   EXPECT_EQ(state(service, "first"), "done");
+}
+
+TEST_F(ServedJobs, BeginWithoutTheCertificateOfAnEarlierRun) {
+  JobService service(options());
+  make_job(service, "first");
+  fs::create_directories(job("first") / "results");
+  for (const char* const name : {"certificate.html", "certificate.pdf", "certificate.xml", "model.yaml", "notes.txt"})
+    std::ofstream(job("first") / "results" / name) << name;
+  EXPECT_EQ(post(service, {"jobs", "first", "run"}).status, 200);
+  EXPECT_TRUE(becomes(service, "first", "done"));
+  const Listed results = jobs(service)[0]["results"];
+  ASSERT_EQ(results.size(), 1U) << results;
+  EXPECT_EQ(results[0]["name"], "model.yaml");
+  EXPECT_TRUE(fs::exists(job("first") / "results/notes.txt"));
 }
 
 TEST_F(ServedJobs, AreLeftOutWhereTheirRecordsCannotBeRead) {
