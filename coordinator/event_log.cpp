@@ -16,7 +16,7 @@
 #include "errors/input_error.hpp"
 #include "evolution/archipelago.hpp"
 #include "monitor/paced_events.hpp"
-#include "monitor/watched.hpp"
+#include "protocol/stages.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "yaml/files.hpp"
