@@ -2,6 +2,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 constexpr int kToRead = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;  // a pipe would keep us waiting
-constexpr int kToWrite = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC;
+constexpr int kToWrite = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC;    // closed in runs: they must not hold the lock
 constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600;
 constexpr const char* kInput = "input";
 constexpr const char* kResults = "results";
@@ -137,6 +138,14 @@ JobFolders::JobFolders(const std::string& root) : root_(std::filesystem::absolut
     throw InputError({root_, 0}, "", "must be a folder that can be written to: name another with --dir");
 }
 
+OwnedDescriptor JobFolders::lock() const {
+  OwnedDescriptor again = open_below(descriptor_.get(), ".", kFolder);  // closed in runs: they must not hold it
+  if (::flock(again.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw InputError({root_, 0}, "",
+                     "another demecal serves the jobs of this folder: end it, or name another folder with --dir");
+  return again;
+}
+
 std::vector<JobId> JobFolders::jobs() const {
   std::vector<JobId> found;
   for (const std::string& user : plain_names(descriptor_)) {
@@ -189,6 +198,14 @@ void JobFolders::put_input(const JobId& id, const std::string& name, std::string
   DEMECAL_CHECK(is_plain_name(name), "name=" << name);
   const OwnedDescriptor inputs = made_below(folder(id).get(), kInput, name_in_job(id, kInput));
   write_whole(inputs.get(), name, bytes, name);
+}
+
+bool JobFolders::remove_input(const JobId& id, const std::string& name) const {
+  DEMECAL_CHECK(is_plain_name(name), "name=" << name);
+  const OwnedDescriptor inputs = open_below(folder(id).get(), kInput, kFolder);
+  if (::unlinkat(inputs.get(), name.c_str(), 0) == 0) return true;
+  if (errno != ENOENT) fail_with_errno(name + " cannot be removed");
+  return false;
 }
 
 std::vector<ListedFile> JobFolders::results(const JobId& id) const {

@@ -77,7 +77,7 @@ std::string require_tolerance(const std::string& text) {
 }  // namespace
 
 JobService::JobService(JobServiceOptions options)
-    : options_(std::move(options)), folders_(options_.folder), queue_(options_.queue) {
+    : options_(std::move(options)), folders_(options_.folder), lock_(folders_.lock()), queue_(options_.queue) {
   for (const JobId& id : folders_.jobs()) {
     try {
       queue_.restore(id, folders_.record(id));
@@ -184,8 +184,9 @@ ServiceAnswer JobService::result(const JobId& id, const ServiceRequest& request)
 void JobService::change(const JobId& id, const ServiceRequest& request) {
   const std::vector<std::string>& path = request.path;
   if (path.size() == 4 && path[2] == "files") return put(id, path[3], request.body);
-  if (path.size() != 3) refuse_unknown();
   const std::lock_guard lock(mutex_);
+  if (path.size() == 5 && path[2] == "files" && path[4] == "remove") return remove_file(id, path[3]);
+  if (path.size() != 3) refuse_unknown();
   if (path[2] == "make") {
     JobQueue changed = queue_;  // takes effect where all else went well
     changed.add(id);
@@ -234,6 +235,15 @@ void JobService::put(const JobId& id, const std::string& file, const std::string
   folders_.save(id, changed.record(id));
   queue_ = std::move(changed);
   folders_.put_input(id, file, bytes);
+}
+
+/// Even where the new state cannot be saved: on a full disk this makes room.
+void JobService::remove_file(const JobId& id, const std::string& file) {
+  JobQueue changed = queue_;
+  changed.change_files(id);
+  if (!is_plain_name(file) || !folders_.remove_input(id, file)) refuse_unknown();
+  queue_ = std::move(changed);
+  save_or_say(id);
 }
 
 /// The YAML files name only what was uploaded, and one of them is the job.

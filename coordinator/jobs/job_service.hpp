@@ -60,6 +60,7 @@ class JobService {
   ServiceAnswer result(const JobId& id, const ServiceRequest& request) const;
   void change(const JobId& id, const ServiceRequest& request);
   void put(const JobId& id, const std::string& file, const std::string& bytes);
+  void remove_file(const JobId& id, const std::string& file);
   void ask_to_run(const JobId& id, const ServiceRequest& request);
   /// Saves how the job stands. Where that fails, it is said, and the job stands so until this process ends.
   void save_or_say(const JobId& id);
@@ -73,6 +74,7 @@ class JobService {
 
   JobServiceOptions options_;
   JobFolders folders_;
+  OwnedDescriptor lock_;  ///< of the folder: jobs of two servers would overwrite each other
   std::mutex mutex_;
   JobQueue queue_;
   std::map<JobId, RunOrder> orders_;

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "errors/input_error.hpp"
 #include "failing_files.hpp"
 
 namespace demecal {
@@ -152,6 +153,43 @@ TEST_F(ServedJobs, BeginWithoutTheCertificateOfAnEarlierRun) {
   ASSERT_EQ(results.size(), 1U) << results;
   EXPECT_EQ(results[0]["name"], "model.yaml");
   EXPECT_TRUE(fs::exists(job("first") / "results/notes.txt"));
+}
+
+TEST_F(ServedJobs, AreOfOneServerAtATime) {
+  {
+    JobService service(options());
+    make_job(service, "first");
+    EXPECT_THROW(JobService other(options()), InputError);
+    EXPECT_EQ(state(service, "first"), "ready");
+  }
+  JobService next(options());
+  EXPECT_EQ(state(next, "first"), "ready");
+}
+
+TEST_F(ServedJobs, LoseAnUploadedFileThatIsRemoved) {
+  JobService service(options());
+  make_job(service, "first");
+  const std::vector<std::string> remove{"jobs", "first", "files", "job3.yaml", "remove"};
+  EXPECT_EQ(post(service, remove).status, 404);
+  EXPECT_EQ(post(service, {"jobs", "first", "files", "job3.yaml"}, "demecal_job: 1\n").status, 200);
+  const ServiceAnswer refused = post(service, {"jobs", "first", "run"});
+  EXPECT_EQ(refused.status, 422);
+  EXPECT_THAT(refused.body, HasSubstr("job3.yaml"));
+  for (const char* const name : {"..", "../job.json", ".being-written", ""})
+    EXPECT_EQ(post(service, {"jobs", "first", "files", name, "remove"}).status, 404) << name;
+  EXPECT_EQ(service.answer({.user = "bob", .changes = true, .path = remove, .parameters = {}, .body = ""}).status, 404);
+  EXPECT_EQ(post(service, remove).status, 200);
+  EXPECT_EQ(jobs(service)[0]["files"].size(), 1U);
+  EXPECT_EQ(post(service, {"jobs", "first", "run"}).status, 200);
+  EXPECT_EQ(post(service, {"jobs", "first", "files", "job.yaml", "remove"}).status, 409);  // it waits
+  ASSERT_TRUE(becomes(service, "first", "done"));
+  // A full disk is no reason to keep a file.
+  break_record("first");
+  ::testing::internal::CaptureStderr();
+  EXPECT_EQ(post(service, {"jobs", "first", "files", "job.yaml", "remove"}).status, 200);
+  EXPECT_THAT(::testing::internal::GetCapturedStderr(), HasSubstr("ann/first/job.json"));
+  EXPECT_EQ(state(service, "first"), "ready");
+  EXPECT_TRUE(jobs(service)[0]["files"].empty());
 }
 
 TEST_F(ServedJobs, AreLeftOutWhereTheirRecordsCannotBeRead) {
