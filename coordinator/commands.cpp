@@ -162,6 +162,7 @@ void write_refusal(const std::string& folder, const std::string& job, const Chec
     fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file,
                to_terminal(data_check_entry(checked.check), ShownFindings::ten));
   const Report report = refusal_report(checked.data, job, checked.check);
+  remove_earlier_results(folder, {"report.json", "report.html"});
   write_result(folder, "report.json", to_json(report));
   write_result(folder, "report.html", report_html(report, {}));
 }

@@ -98,7 +98,8 @@ CLI::Validator not_negative();
 /// The option --force of a command that fits or judges data.
 void add_force(CLI::App& command, bool& force);
 
-/// Writes report.json and report.html of data that no model was fitted to, and says what was found on standard error.
+/// Writes report.json and report.html of data that no model was fitted to, in place of the results of an earlier run,
+/// and says what was found on standard error.
 void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked);
 
 /// What `fit` returns. Where it throws InputError, since no model fits the data, what the check found in them is said

@@ -16,7 +16,7 @@
 #include "errors/input_error.hpp"
 #include "evolution/archipelago.hpp"
 #include "monitor/paced_events.hpp"
-#include "monitor/watched.hpp"
+#include "protocol/stages.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "yaml/files.hpp"
@@ -132,17 +132,23 @@ void EventLog::on_run_begins(const CalibrationData& data, const std::vector<Prog
                                                     : fmt::format("closing the loop: evolution {}", evolutions_));
   }
   file_.note(data);
-  std::map<IslandKey, Progress> last;
-  for (const Progress& progress : reached) last[progress.island] = progress;
-  for (const auto& [island, progress] : last) {
+  reached_.clear();
+  for (const Progress& progress : reached) reached_[progress.island] = progress;
+  for (const auto& [island, progress] : reached_) {
     file_.note(progress);
     reporter_->publish(progress);
   }
 }
 
+void EventLog::on_progress(const Progress& progress) {
+  file_.note(progress);
+  reached_[progress.island] = progress;
+}
+
 void EventLog::on_run_ends(RunEnd end) {
   const auto state = end == RunEnd::finished ? Control::State::finished : Control::State::cancelled;
   file_.note(Control{stage_.run, state, stage_.job});
+  for (const auto& [island, progress] : reached_) reporter_->publish(progress);
   const bool goes_on = end == RunEnd::finished || (of_sets_ && end == RunEnd::no_worker);
   if (goes_on) publish_stage(Stage::closing, "closing the loop");
 }

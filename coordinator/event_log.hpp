@@ -40,7 +40,8 @@ class EventFile {
 /// Throws InputError naming file and line where the file cannot be read or holds something else.
 std::vector<Event> read_events(const std::string& path);
 
-/// Nothing depends on it. Workers publish themselves how their islands fare; of them it only records.
+/// Nothing depends on it. Workers publish themselves how their islands fare; of them it records, and says once more at
+/// the end of a run, since workers go and what they published goes with them.
 class EventLog final : public CalibrationObserver {
  public:
   /// `reporter` has the role of that name. Events go to the file in `folder`, after those that are there where
@@ -54,7 +55,7 @@ class EventLog final : public CalibrationObserver {
   void on_run_begins(const CalibrationData& data, const std::vector<Progress>& reached, bool shown) override;
   void on_run_ends(RunEnd end) override;
   void on_workers_end() override;
-  void on_progress(const Progress& progress) override { file_.note(progress); }
+  void on_progress(const Progress& progress) override;
   void on_worker(const WorkerStatus& status) override;
   void on_lost(const std::string& worker) override { file_.note(WorkerLost{worker}); }
   void on_round(const Round& round, const Robot& described) override;
@@ -68,6 +69,7 @@ class EventLog final : public CalibrationObserver {
   EventFile file_;
   std::unique_ptr<Transport> reporter_;
   LoopNews stage_;
+  std::map<IslandKey, Progress> reached_;  ///< in the present run
   std::uint32_t evolutions_ = 0;
   bool of_sets_ = false;                         ///< whether the present run breeds sets of effects
   std::map<std::string, WorkerStatus> workers_;  ///< as recorded

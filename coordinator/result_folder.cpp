@@ -110,6 +110,15 @@ void make_writable(const std::string& folder, const std::vector<std::string>& fi
       one ? "it" : "them"));
 }
 
+void remove_earlier_results(const std::string& folder, const std::vector<std::string>& written) {
+  std::vector<std::string> names = result_files(Method::distal);  // which has all that others have
+  names.insert(names.end(), {"proposed.csv", "comparison.json", "events.jsonl"});
+  WrittenFiles files(folder);
+  for (const std::string& name : names) {
+    if (std::ranges::find(written, name) == written.end()) files.remove(name);
+  }
+}
+
 void write_result(const std::string& folder, const std::string& name, const std::string& bytes) {
   WrittenFiles(folder).write(name, bytes);
 }
@@ -142,6 +151,7 @@ FilesBeingWritten::~FilesBeingWritten() {
 Report write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result) {
   const Method method = result.model.method;
   const std::string model_path = folder + "/model.yaml";
+  remove_earlier_results(folder, result_files(method));
   write_result(folder, "model.yaml", model_text(result.model));
   if (result.best) {
     write_result(folder, "model-best.yaml", model_text(*result.best));
@@ -228,6 +238,15 @@ void WrittenFiles::note_as_is(const std::string& name) {
   } else {
     hashes_.erase(name);
   }
+  save();
+}
+
+void WrittenFiles::remove(const std::string& name) {
+  const auto known = hashes_.find(name);
+  if (known == hashes_.end() || known->second.contains(kAnything)) return;
+  if (std::filesystem::exists(path_of(name)) && !is_ours(name)) return;
+  std::filesystem::remove(path_of(name));
+  hashes_.erase(known);
   save();
 }
 

@@ -31,6 +31,8 @@ class WrittenFiles {
   void begin(const std::string& name);
   /// Notes the file as it stands in the folder, or that there is none.
   void note_as_is(const std::string& name);
+  /// Removes a file that is as demecal left it, and that nobody is writing.
+  void remove(const std::string& name);
 
  private:
   std::string path_of(const std::string& name) const { return folder_ + "/" + name; }
@@ -46,6 +48,10 @@ class WrittenFiles {
 /// ArgumentError where any of `files`, those to be written there, is there already and is not as demecal left it;
 /// called before long work, so that none is lost.
 void make_writable(const std::string& folder, const std::vector<std::string>& files, bool force);
+
+/// Removes results that earlier runs left in the folder and this one, which writes `written`, does not: they are of
+/// another model, or of other data. What was changed since, or is being written, stays.
+void remove_earlier_results(const std::string& folder, const std::vector<std::string>& written);
 
 /// Writes a file of the folder, whole or not at all, and notes in the folder that it is demecal's.
 void write_result(const std::string& folder, const std::string& name, const std::string& bytes);
@@ -72,7 +78,7 @@ class FilesBeingWritten {
 std::vector<std::string> result_files(Method method);
 
 /// Writes the model, reads it back, and writes the report of what was read, so that evaluating model.yaml gives the
-/// same figures to the last digit. Each file appears whole or not at all.
+/// same figures to the last digit. Each file appears whole or not at all; results of earlier runs are removed.
 Report write_results(const std::string& folder, const DataSet& data, const CalibrateResult& result);
 
 }  // namespace demecal

@@ -55,11 +55,6 @@ auto latest(const Entries& entries) {
 
 }  // namespace
 
-bool is_over(LoopNews::Stage stage) {
-  return stage == LoopNews::Stage::finished || stage == LoopNews::Stage::interrupted ||
-         stage == LoopNews::Stage::failed;
-}
-
 bool WatchedRun::has_finished(const Progress& island) const {
   return has_data() && island.generation >= static_cast<std::uint32_t>(data.parameters.number_generations);
 }

@@ -12,11 +12,9 @@
 
 #include "evolution/archipelago.hpp"
 #include "protocol/messages.hpp"
+#include "protocol/stages.hpp"
 
 namespace demecal::inline monitor {
-
-/// Whether nothing follows this stage.
-bool is_over(LoopNews::Stage stage);
 
 /// How many evaluations a run's islands had done when.
 struct WorkMark {

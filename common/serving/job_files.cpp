@@ -54,7 +54,9 @@ JobFiles find_job(const std::map<std::string, YamlNode>& files) {
   for (const auto& [name, root] : files) {
     if (root.kind != YamlNode::Kind::map || root.find("demecal_job") == nullptr) continue;
     if (!found.job.empty())
-      throw InputError({name, 0}, "", "is a second job beside " + found.job + ": upload one (demecal_job: 1)");
+      throw InputError(
+          {name, 0}, "",
+          "is a second job beside " + found.job + ": a run is of one (demecal_job: 1), so remove the other");
     found.job = name;
     const YamlNode* const data = root.find("data");
     const YamlNode* const stations =

@@ -19,6 +19,7 @@
 #include "errors/check.hpp"
 #include "evolution/archipelago.hpp"
 #include "protocol/messages.hpp"
+#include "protocol/stages.hpp"
 #include "transport/mailbox.hpp"
 #include "transport/participants.hpp"
 #include "transport/run_owners.hpp"
@@ -77,7 +78,7 @@ class Exchange {
     const std::lock_guard lock(mutex_);
     std::erase(members_, member);
     const bool is_lost = has_announced_itself(*member);
-    const std::set<std::uint64_t> calibrations = calibrations_of(*member);
+    const std::set<std::uint64_t> calibrations = unended_calibrations_of(*member);
     kept_.erase(member);
     for (const std::uint64_t calibration : calibrations) announce(*member, Topic::loop, CalibrationLost{calibration});
     if (is_lost) announce(*member, Topic::worker, WorkerLost{member->name});
@@ -122,11 +123,15 @@ class Exchange {
       if (reads(member->role, topic)) member->mailbox.put(source.id, message);
   }
 
-  /// Those whose news it has published.
-  std::set<std::uint64_t> calibrations_of(const InMemoryMember& member) {
-    std::set<std::uint64_t> calibrations;
-    for (const auto& [key, values] : kept_[&member])
-      if (key.topic == Topic::loop) calibrations.insert(key.calibration);
+  /// Those whose news it has published, less those whose last stage says that they are over.
+  std::set<std::uint64_t> unended_calibrations_of(const InMemoryMember& member) {
+    std::set<std::uint64_t> calibrations, ended;
+    for (const auto& [key, values] : kept_[&member]) {
+      if (key.topic != Topic::loop) continue;
+      const auto& news = std::get<LoopNews>(values.back().message);
+      (news.round == 0 && is_over(news.stage) ? ended : calibrations).insert(news.calibration);
+    }
+    for (const std::uint64_t calibration : ended) calibrations.erase(calibration);
     return calibrations;
   }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "protocol/stages.hpp"
 #include "transport/mailbox.hpp"
 
 namespace demecal::inline transport {
@@ -105,17 +106,20 @@ void Presence::lose(const WriterId& writer, Worker& worker) {
 
 bool CalibrationPresence::receive(const WriterId& writer, LoopNews news) {
   const std::lock_guard lock(mutex_);
-  const bool is_anothers = std::ranges::any_of(
-      calibrations_, [&](const auto& other) { return other.first != writer && other.second == news.calibration; });
+  const bool is_anothers = std::ranges::any_of(calibrations_, [&](const auto& other) {
+    return other.first != writer && other.second.number == news.calibration;
+  });
   if (is_anothers) return false;
-  calibrations_[writer] = news.calibration;
+  Calibration& calibration = calibrations_[writer];
+  if (calibration.number != news.calibration) calibration = {news.calibration, false};
+  if (news.round == 0) calibration.is_over = is_over(news.stage);
   return mailbox_.put(participant_of(writer), std::move(news));
 }
 
 void CalibrationPresence::departed(const WriterId& writer) {
   const std::lock_guard lock(mutex_);
   const auto gone = calibrations_.extract(writer);
-  if (gone) mailbox_.put(participant_of(writer), CalibrationLost{gone.mapped()});
+  if (gone && !gone.mapped().is_over) mailbox_.put(participant_of(writer), CalibrationLost{gone.mapped().number});
 }
 
 }  // namespace demecal::inline transport

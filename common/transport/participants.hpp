@@ -77,13 +77,18 @@ class CalibrationPresence {
 
   /// News were read: put, unless another writer publishes for that calibration; whether they were.
   bool receive(const WriterId& writer, LoopNews news);
-  /// The writer is gone for good, whether or not its calibration had ended.
+  /// The writer is gone for good: its calibration is lost, unless its last stage says that it is over.
   void departed(const WriterId& writer);
 
  private:
+  struct Calibration {
+    std::uint64_t number = 0;
+    bool is_over = false;
+  };
+
   Mailbox& mailbox_;
   std::mutex mutex_;
-  std::map<WriterId, std::uint64_t> calibrations_;
+  std::map<WriterId, Calibration> calibrations_;
 };
 
 }  // namespace demecal::inline transport

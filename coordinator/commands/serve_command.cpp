@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -82,6 +83,7 @@ ExitCode run_serve(const ServeRequest& request) {
   ::umask(kForOthers);
   JobServiceOptions jobs;
   jobs.folder = request.folder;
+  jobs.program = std::filesystem::read_symlink("/proc/self/exe").string();
   jobs.signs_in = !options.tokens.empty();
   jobs.run_arguments = run_arguments(request);
   jobs.longest_run = std::chrono::seconds(static_cast<std::int64_t>(3600.0 * request.longest_run_h));

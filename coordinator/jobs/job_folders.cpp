@@ -2,6 +2,7 @@
 
 #include <dirent.h>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <algorithm>
@@ -19,7 +20,7 @@ namespace {
 
 constexpr int kFolder = O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
 constexpr int kToRead = O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;  // a pipe would keep us waiting
-constexpr int kToWrite = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC;
+constexpr int kToWrite = O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC;    // closed in runs: they must not hold the lock
 constexpr mode_t kOwnFolder = 0700, kOwnFile = 0600;
 constexpr const char* kInput = "input";
 constexpr const char* kResults = "results";
@@ -44,10 +45,16 @@ OwnedDescriptor open_below(int folder, const std::string& name, int flags) {
   return OwnedDescriptor(::openat(folder, name.c_str(), flags, kOwnFile));
 }
 
-OwnedDescriptor made_below(int folder, const std::string& name) {
-  if (::mkdirat(folder, name.c_str(), kOwnFolder) != 0 && errno != EEXIST) fail_with_errno("a folder cannot be made");
+/// What stands in a job's folder, as messages name it.
+std::string name_in_job(const JobId& id, const std::string& name) {
+  return id.user + '/' + id.job + '/' + name;
+}
+
+OwnedDescriptor made_below(int folder, const std::string& name, const std::string& shown) {
+  if (::mkdirat(folder, name.c_str(), kOwnFolder) != 0 && errno != EEXIST)
+    fail_with_errno("the folder " + shown + " cannot be made");
   OwnedDescriptor made = open_below(folder, name, kFolder);
-  if (made.get() < 0) fail_with_errno("a folder cannot be opened");
+  if (made.get() < 0) fail_with_errno("the folder " + shown + " cannot be opened");
   return made;
 }
 
@@ -82,12 +89,12 @@ std::vector<ListedFile> files_in(const OwnedDescriptor& folder) {
 }
 
 /// Bytes of the file from `begin` on; fewer where it has become shorter.
-std::string read_bytes(int descriptor, std::uint64_t begin, std::uint64_t count) {
+std::string read_bytes(int descriptor, std::uint64_t begin, std::uint64_t count, const std::string& shown) {
   std::string bytes(count, '\0');
   std::size_t done = 0;
   while (done < bytes.size()) {
     const ssize_t got = ::pread(descriptor, bytes.data() + done, bytes.size() - done, static_cast<off_t>(begin + done));
-    if (got < 0) fail_with_errno("a file cannot be read");
+    if (got < 0) fail_with_errno(shown + " cannot be read");
     if (got == 0) break;
     done += static_cast<std::size_t>(got);
   }
@@ -96,15 +103,16 @@ std::string read_bytes(int descriptor, std::uint64_t begin, std::uint64_t count)
 }
 
 /// The file appears whole or not at all.
-void write_whole(int folder, const std::string& name, std::string_view bytes) {
+void write_whole(int folder, const std::string& name, std::string_view bytes, const std::string& shown) {
+  const std::string fault = shown + " cannot be written";
   const OwnedDescriptor file = open_below(folder, kBeingWritten, kToWrite | O_TRUNC);
-  if (file.get() < 0) fail_with_errno("a file cannot be written");
+  if (file.get() < 0) fail_with_errno(fault);
   for (std::size_t done = 0; done < bytes.size();) {
     const ssize_t put = ::write(file.get(), bytes.data() + done, bytes.size() - done);
-    if (put <= 0) fail_with(put < 0 ? errno : EIO, "a file cannot be written");
+    if (put <= 0) fail_with(put < 0 ? errno : EIO, fault);
     done += static_cast<std::size_t>(put);
   }
-  if (::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fail_with_errno("a file cannot be written");
+  if (::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fail_with_errno(fault);
 }
 
 }  // namespace
@@ -130,6 +138,14 @@ JobFolders::JobFolders(const std::string& root) : root_(std::filesystem::absolut
     throw InputError({root_, 0}, "", "must be a folder that can be written to: name another with --dir");
 }
 
+OwnedDescriptor JobFolders::lock() const {
+  OwnedDescriptor again = open_below(descriptor_.get(), ".", kFolder);  // closed in runs: they must not hold it
+  if (::flock(again.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw InputError({root_, 0}, "",
+                     "another demecal serves the jobs of this folder: end it, or name another folder with --dir");
+  return again;
+}
+
 std::vector<JobId> JobFolders::jobs() const {
   std::vector<JobId> found;
   for (const std::string& user : plain_names(descriptor_)) {
@@ -145,15 +161,15 @@ OwnedDescriptor JobFolders::folder(const JobId& id) const {
   DEMECAL_CHECK(is_plain_name(id.user) && is_plain_name(id.job), "user=" << id.user << " job=" << id.job);
   const OwnedDescriptor user = open_below(descriptor_.get(), id.user, kFolder);
   OwnedDescriptor job = open_below(user.get(), id.job, kFolder);
-  if (user.get() < 0 || job.get() < 0) fail_with_errno("the job's folder cannot be opened");
+  if (user.get() < 0 || job.get() < 0) fail_with_errno("the folder " + id.user + '/' + id.job + " cannot be opened");
   return job;
 }
 
 void JobFolders::make(const JobId& id) const {
   DEMECAL_CHECK(is_plain_name(id.user) && is_plain_name(id.job), "user=" << id.user << " job=" << id.job);
-  const OwnedDescriptor user = made_below(descriptor_.get(), id.user);
-  const OwnedDescriptor job = made_below(user.get(), id.job);
-  made_below(job.get(), kInput);
+  const OwnedDescriptor user = made_below(descriptor_.get(), id.user, id.user);
+  const OwnedDescriptor job = made_below(user.get(), id.job, id.user + '/' + id.job);
+  made_below(job.get(), kInput, name_in_job(id, kInput));
 }
 
 void JobFolders::remove(const JobId& id) const {
@@ -174,13 +190,22 @@ std::string JobFolders::input(const JobId& id, const std::string& name) const {
   const OwnedDescriptor inputs = open_below(folder(id).get(), kInput, kFolder);
   const OwnedDescriptor file = open_below(inputs.get(), name, kToRead);
   const auto size = regular_file_size(file.get());
-  if (!size) fail_with(file.get() < 0 ? errno : EINVAL, "an uploaded file cannot be read");
-  return read_bytes(file.get(), 0, *size);
+  if (!size) fail_with(file.get() < 0 ? errno : EINVAL, name + ", which was uploaded, cannot be read");
+  return read_bytes(file.get(), 0, *size, name);
 }
 
 void JobFolders::put_input(const JobId& id, const std::string& name, std::string_view bytes) const {
   DEMECAL_CHECK(is_plain_name(name), "name=" << name);
-  write_whole(made_below(folder(id).get(), kInput).get(), name, bytes);
+  const OwnedDescriptor inputs = made_below(folder(id).get(), kInput, name_in_job(id, kInput));
+  write_whole(inputs.get(), name, bytes, name);
+}
+
+bool JobFolders::remove_input(const JobId& id, const std::string& name) const {
+  DEMECAL_CHECK(is_plain_name(name), "name=" << name);
+  const OwnedDescriptor inputs = open_below(folder(id).get(), kInput, kFolder);
+  if (::unlinkat(inputs.get(), name.c_str(), 0) == 0) return true;
+  if (errno != ENOENT) fail_with_errno(name + " cannot be removed");
+  return false;
 }
 
 std::vector<ListedFile> JobFolders::results(const JobId& id) const {
@@ -207,7 +232,17 @@ std::shared_ptr<AnsweredFile> JobFolders::open_result(const JobId& id, const std
 std::optional<std::string> JobFolders::result(const JobId& id, const std::string& name, std::uint64_t most) const {
   const std::shared_ptr<AnsweredFile> file = open_result(id, name);
   if (!file || file->bytes() > most) return std::nullopt;
-  return read_bytes(file->descriptor(), 0, file->bytes());
+  return read_bytes(file->descriptor(), 0, file->bytes(), name);
+}
+
+void JobFolders::remove_certificates(const JobId& id) const {
+  const OwnedDescriptor results = open_below(folder(id).get(), kResults, kFolder);
+  if (results.get() < 0) return;
+  for (const char* const name : kOffered) {
+    if (!std::string_view(name).starts_with("certificate.")) continue;
+    if (::unlinkat(results.get(), name, 0) != 0 && errno != ENOENT)
+      fail_with_errno(name_in_job(id, std::string(kResults) + '/' + name) + " cannot be removed");
+  }
 }
 
 bool JobFolders::can_go_on(const JobId& id) const {
@@ -217,24 +252,25 @@ bool JobFolders::can_go_on(const JobId& id) const {
 
 OwnedDescriptor JobFolders::open_terminal(const JobId& id, bool keep) const {
   OwnedDescriptor file = open_below(folder(id).get(), kTerminal, kToWrite | O_APPEND | (keep ? 0 : O_TRUNC));
-  if (file.get() < 0) fail_with_errno("what a run says cannot be written");
+  if (file.get() < 0) fail_with_errno(name_in_job(id, kTerminal) + " cannot be written");
   return file;
 }
 
 std::string JobFolders::terminal(const JobId& id, std::uint64_t most) const {
   const OwnedDescriptor file = open_below(folder(id).get(), kTerminal, kToRead);
   const std::uint64_t size = regular_file_size(file.get()).value_or(0), count = std::min(size, most);
-  return count == 0 ? "" : read_bytes(file.get(), size - count, count);
+  return count == 0 ? "" : read_bytes(file.get(), size - count, count, name_in_job(id, kTerminal));
 }
 
 JobRecord JobFolders::record(const JobId& id) const {
   const OwnedDescriptor file = open_below(folder(id).get(), kRecord, kToRead);
   const auto size = regular_file_size(file.get());
-  return size && *size <= kMostOfRecord ? parse_record(read_bytes(file.get(), 0, *size)) : JobRecord{};
+  if (!size || *size > kMostOfRecord) return {};
+  return parse_record(read_bytes(file.get(), 0, *size, name_in_job(id, kRecord)));
 }
 
 void JobFolders::save(const JobId& id, const JobRecord& record) const {
-  write_whole(folder(id).get(), kRecord, record_text(record));
+  write_whole(folder(id).get(), kRecord, record_text(record), name_in_job(id, kRecord));
 }
 
 }  // namespace demecal

@@ -44,6 +44,10 @@ class JobFolders {
   /// Makes the folder where it is missing. Throws InputError where it cannot be used.
   explicit JobFolders(const std::string& root);
 
+  /// A lock of the folder that goes with this process, where the file system has any. Throws InputError where another
+  /// has it.
+  OwnedDescriptor lock() const;
+
   /// All jobs that stand there.
   std::vector<JobId> jobs() const;
   void make(const JobId& id) const;
@@ -54,6 +58,8 @@ class JobFolders {
   std::vector<ListedFile> inputs(const JobId& id) const;
   std::string input(const JobId& id, const std::string& name) const;
   void put_input(const JobId& id, const std::string& name, std::string_view bytes) const;
+  /// Whether there was such a file.
+  bool remove_input(const JobId& id, const std::string& name) const;
 
   /// Those of the files that a run leaves which users get.
   std::vector<ListedFile> results(const JobId& id) const;
@@ -62,6 +68,8 @@ class JobFolders {
   std::shared_ptr<AnsweredFile> open_result(const JobId& id, const std::string& name) const;
   /// The text of a file of results of at most `most` bytes; nothing where there is none, or it is larger.
   std::optional<std::string> result(const JobId& id, const std::string& name, std::uint64_t most) const;
+  /// Certificates are of the model that stood there when they were made.
+  void remove_certificates(const JobId& id) const;
   bool can_go_on(const JobId& id) const;  ///< a run was broken off, and left its journal
 
   /// What the last run said, open to be written to; emptied unless `keep`.

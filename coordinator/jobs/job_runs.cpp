@@ -1,8 +1,7 @@
-// The runs of served jobs: processes of this same program, one at a time.
+// The runs of served jobs: processes, one at a time.
 #include <chrono>
-#include <cstdio>
-#include <filesystem>
-#include <stdexcept>
+#include <cstdint>
+#include <exception>
 #include <string>
 #include <thread>
 
@@ -18,10 +17,6 @@ std::int64_t unix_time_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::string this_program() {
-  return std::filesystem::read_symlink("/proc/self/exe").string();
-}
-
 }  // namespace
 
 void JobService::tick() {
@@ -31,7 +26,7 @@ void JobService::tick() {
     if (child_) return;
     if (const auto next = queue_.begin_next(unix_time_s())) begin(*next);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
+    say(error.what());
     child_.reset();
     if (queue_.running()) end(static_cast<int>(ExitCode::run_failed));
   }
@@ -41,6 +36,7 @@ void JobService::begin(const JobId& id) {
   is_stopping_ = false;
   command_ = 0;
   folders_.save(id, queue_.record(id));
+  folders_.remove_certificates(id);
   began_ = Clock::now();
   begin_command(id, orders_[id].goes_on);
 }
@@ -48,7 +44,7 @@ void JobService::begin(const JobId& id) {
 void JobService::begin_command(const JobId& id, bool keep_terminal) {
   interrupted_.reset();
   const OwnedDescriptor said = folders_.open_terminal(id, keep_terminal);
-  child_.emplace(this_program(), orders_[id].commands[command_], folders_.path_of(id), said.get());
+  child_.emplace(options_.program, orders_[id].commands[command_], folders_.path_of(id), said.get());
 }
 
 /// Interrupts the run where it is to end, and takes note of how it ended.
@@ -72,7 +68,7 @@ void JobService::end(int exit_code) {
   const JobId id = *queue_.running();
   queue_.end(exit_code, unix_time_s());
   orders_.erase(id);
-  folders_.save(id, queue_.record(id));
+  save_or_say(id);
 }
 
 void JobService::shut_down() {

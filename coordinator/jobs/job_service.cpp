@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <system_error>
@@ -76,8 +77,28 @@ std::string require_tolerance(const std::string& text) {
 }  // namespace
 
 JobService::JobService(JobServiceOptions options)
-    : options_(std::move(options)), folders_(options_.folder), queue_(options_.queue) {
-  for (const JobId& id : folders_.jobs()) queue_.restore(id, folders_.record(id));
+    : options_(std::move(options)), folders_(options_.folder), lock_(folders_.lock()), queue_(options_.queue) {
+  for (const JobId& id : folders_.jobs()) {
+    try {
+      queue_.restore(id, folders_.record(id));
+    } catch (const std::system_error& error) {
+      say(std::string(error.what()) + "; the job is left out");
+    }
+  }
+}
+
+void JobService::say(const std::string& trouble) {
+  if (trouble != said_) std::fprintf(stderr, "%s\n", trouble.c_str());
+  said_ = trouble;
+}
+
+void JobService::save_or_say(const JobId& id) {
+  try {
+    folders_.save(id, queue_.record(id));
+    said_.clear();
+  } catch (const std::system_error& error) {
+    say(error.what());
+  }
 }
 
 ServiceAnswer JobService::answer(const ServiceRequest& request) {
@@ -163,12 +184,15 @@ ServiceAnswer JobService::result(const JobId& id, const ServiceRequest& request)
 void JobService::change(const JobId& id, const ServiceRequest& request) {
   const std::vector<std::string>& path = request.path;
   if (path.size() == 4 && path[2] == "files") return put(id, path[3], request.body);
-  if (path.size() != 3) refuse_unknown();
   const std::lock_guard lock(mutex_);
+  if (path.size() == 5 && path[2] == "files" && path[4] == "remove") return remove_file(id, path[3]);
+  if (path.size() != 3) refuse_unknown();
   if (path[2] == "make") {
-    queue_.add(id);
+    JobQueue changed = queue_;  // takes effect where all else went well
+    changed.add(id);
     folders_.make(id);
-    folders_.save(id, queue_.record(id));
+    folders_.save(id, changed.record(id));
+    queue_ = std::move(changed);
   } else if (path[2] == "remove") {
     queue_.remove(id);
     folders_.remove(id);
@@ -177,7 +201,7 @@ void JobService::change(const JobId& id, const ServiceRequest& request) {
   } else if (path[2] == "stop") {
     const bool is_running = queue_.ask_to_stop(id);
     is_stopping_ = is_stopping_ || is_running;
-    folders_.save(id, queue_.record(id));
+    save_or_say(id);
   } else {
     refuse_unknown();
   }
@@ -206,9 +230,20 @@ void JobService::put(const JobId& id, const std::string& file, const std::string
   if (all_bytes > options_.bytes_each)
     throw Refusal(Refusal::Kind::limit,
                   "the files of a job have at most " + std::to_string(options_.bytes_each >> 20) + " MB");
-  queue_.change_files(id);
-  folders_.save(id, queue_.record(id));
+  JobQueue changed = queue_;
+  changed.change_files(id);
+  folders_.save(id, changed.record(id));
+  queue_ = std::move(changed);
   folders_.put_input(id, file, bytes);
+}
+
+/// Even where the new state cannot be saved: on a full disk this makes room.
+void JobService::remove_file(const JobId& id, const std::string& file) {
+  JobQueue changed = queue_;
+  changed.change_files(id);
+  if (!is_plain_name(file) || !folders_.remove_input(id, file)) refuse_unknown();
+  queue_ = std::move(changed);
+  save_or_say(id);
 }
 
 /// The YAML files name only what was uploaded, and one of them is the job.
@@ -244,9 +279,11 @@ void JobService::ask_to_run(const JobId& id, const ServiceRequest& request) {
     order.commands.push_back({"certify", "results/model.yaml", "input/" + files.data.front(), "--tolerance",
                               require_tolerance(tolerance->second), "--out", "results"});
   }
-  queue_.ask_to_run(id);
+  JobQueue changed = queue_;
+  changed.ask_to_run(id);
+  folders_.save(id, changed.record(id));
+  queue_ = std::move(changed);
   orders_[id] = std::move(order);
-  folders_.save(id, queue_.record(id));
 }
 
 }  // namespace demecal

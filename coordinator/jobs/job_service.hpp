@@ -20,6 +20,7 @@ namespace demecal {
 
 struct JobServiceOptions {
   std::string folder;
+  std::string program;                     ///< that runs: `demecal`
   std::vector<std::string> run_arguments;  ///< of `demecal calibrate`, besides job and folder
   bool signs_in = false;                   ///< users show tokens
   std::chrono::seconds longest_run{24 * 3600};
@@ -59,7 +60,12 @@ class JobService {
   ServiceAnswer result(const JobId& id, const ServiceRequest& request) const;
   void change(const JobId& id, const ServiceRequest& request);
   void put(const JobId& id, const std::string& file, const std::string& bytes);
+  void remove_file(const JobId& id, const std::string& file);
   void ask_to_run(const JobId& id, const ServiceRequest& request);
+  /// Saves how the job stands. Where that fails, it is said, and the job stands so until this process ends.
+  void save_or_say(const JobId& id);
+  /// On standard error, unless it was the last thing said there.
+  void say(const std::string& trouble);
   JobFiles checked_files(const JobId& id) const;
   void begin(const JobId& id);
   void begin_command(const JobId& id, bool keep_terminal);
@@ -68,9 +74,11 @@ class JobService {
 
   JobServiceOptions options_;
   JobFolders folders_;
+  OwnedDescriptor lock_;  ///< of the folder: jobs of two servers would overwrite each other
   std::mutex mutex_;
   JobQueue queue_;
   std::map<JobId, RunOrder> orders_;
+  std::string said_;
   bool is_stopping_ = false;  ///< the run
   std::optional<ChildProcess> child_;
   std::size_t command_ = 0;

@@ -1,7 +1,7 @@
 // Uses the page of jobs in Chromium as a person does, and prints, as one line of JSON, what stood there and what went wrong:
 //   node jobs_page.mjs URL TOKEN FOLDER [PICTURES]
 // It signs in, uploads what lies in FOLDER as a job, runs it, opens its terminal and its report, looks at the page as a
-// phone shows it and in the dark, removes the job, and signs out. With PICTURES, pictures are left in that folder.
+// phone shows it and in the dark, removes a file and the job, and signs out. With PICTURES, pictures are left in that folder.
 import {readdirSync} from 'node:fs';
 import puppeteer from 'puppeteer-core';
 
@@ -18,7 +18,7 @@ try {
   page.on('console', message => { if (['error', 'warning', 'warn'].includes(message.type()) && !(expected && message.text().includes(expected))) found.faults.push(message.text()); });
   page.on('pageerror', error => found.faults.push(String(error)));
   page.on('request', request => { if (new URL(request.url()).origin !== new URL(url).origin) found.elsewhere.push(request.url()); });
-  page.on('dialog', dialog => dialog.accept());
+  page.on('dialog', dialog => dialog.accept(dialog.defaultValue()));
   const shows = words => page.waitForFunction(wanted => document.getElementById('stage').textContent.includes(wanted), patience, words);
   const press = words => page.evaluate(wanted => [...document.querySelectorAll('button')].find(button => button.textContent === wanted).click(), words);
   const becomes = state => page.waitForFunction(wanted => document.querySelector('.job')?.dataset.state === wanted, patience, state);
@@ -68,6 +68,9 @@ try {
   await pause(800);
   found.phone = await isWide();
   if (pictures) await page.screenshot({path: `${pictures}/jobs-phone.png`, fullPage: true});
+  await press('remove a file');
+  await page.waitForFunction(() => !document.querySelector('.job .note').textContent.includes('robot.yaml'), patience);
+  found.left = await page.$eval('.job .note', note => note.textContent);
   await press('remove');
   await page.waitForFunction(() => document.querySelector('.job') === null, patience);
   found.removed = await page.$$eval('.job', jobs => jobs.length);

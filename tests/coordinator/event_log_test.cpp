@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <variant>
+#include <vector>
 
 #include "coordinator/event_log.hpp"
 #include "errors/input_error.hpp"
@@ -104,6 +107,29 @@ TEST_F(EventFiles, TellOfARunThatWasBrokenOffAndResumed) {
   EXPECT_EQ(live.calibration()->stage.text, "finished");
   ASSERT_NE(live.run(), nullptr);
   EXPECT_EQ(live.run()->islands.size(), 1u) << "what no worker will tell again";
+}
+
+TEST_F(EventFiles, TellWhoComesLateWhatARunReachedWhoseWorkersAreGone) {
+  const auto exchange = make_exchange();
+  EventLog log(folder, false, "job", join(exchange, Role::reporter, "reporter"));
+  const CalibrationData data = small_run(7);
+  Progress begun, reached;
+  begun.run = reached.run = data.run;
+  begun.worker = reached.worker = "one";
+  reached.generation = 12;
+  reached.evaluations = 500;
+  log.on_run_begins(data, {}, true);
+  log.on_progress(begun);
+  log.on_progress(reached);
+  log.on_run_ends(RunEnd::finished);
+  const auto late = join(exchange, Role::watcher, "late");
+  std::vector<Message> seen;
+  while (const auto message = late->receive(std::chrono::milliseconds{0})) {
+    if (std::holds_alternative<Progress>(*message)) seen.push_back(*message);
+  }
+  EXPECT_EQ(seen, std::vector<Message>{reached});
+  const auto recorded = messages_in(path);
+  EXPECT_EQ(std::ranges::count(recorded, Message(reached)), 1);
 }
 
 }  // namespace

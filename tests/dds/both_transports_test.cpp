@@ -99,6 +99,23 @@ TEST_P(Transports, ReportACalibrationLostWhenItsReporterGoes) {
   expect_exactly(*watcher, {CalibrationLost{news.calibration}});
 }
 
+TEST_P(Transports, ReportNoCalibrationLostThatCameToItsEnd) {
+  const auto watcher = network->join(Role::watcher, "watcher");
+  auto ended = network->join(Role::reporter, "ended"), broken_off = network->join(Role::reporter, "broken off");
+  LoopNews over, evolving;
+  over.calibration = 1;
+  over.stage = LoopNews::Stage::finished;
+  evolving.calibration = 2;
+  evolving.stage = LoopNews::Stage::evolving;
+  ended->publish(over);
+  receive_up_to(*watcher, over);
+  broken_off->publish(evolving);
+  receive_up_to(*watcher, evolving);
+  ended.reset();
+  broken_off.reset();
+  expect_exactly(*watcher, {CalibrationLost{2}});
+}
+
 TEST_P(Transports, KeepTheOrderOfEachKeyAndTheLastValue) {
   const auto coordinator = network->join(Role::coordinator, "coordinator");
   const auto worker = network->join(Role::worker, "worker");

@@ -4,6 +4,9 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "program.hpp"
 #include "small_job.hpp"
@@ -76,6 +79,66 @@ TEST(ResultFolder, KnowsWhatEarlierVersionsLeftThatKeptNoList) {
   EXPECT_EQ(diagnose_into(job, "out", {"--propose", "3"}).code, 0);
   std::filesystem::remove(job.path("data/.demecal-files"));
   EXPECT_EQ(run("demecal", {"simulate", job.path("scenario.yaml"), "--out", job.path("data")}).code, 0);
+}
+
+/// A table of poses by numbers, each a thousandth: as if metres stood where millimetres are meant.
+void shrink_measured_columns(const SmallJob& job) {
+  std::istringstream rows(job.text("data/poses.csv"));
+  std::string made, row;
+  std::vector<bool> is_length;
+  while (std::getline(rows, row)) {
+    std::istringstream cells(row);
+    std::size_t column = 0;
+    std::string made_row;
+    for (std::string cell; std::getline(cells, cell, ','); ++column) {
+      if (made.empty())
+        is_length.push_back(cell.ends_with("_mm"));
+      else if (is_length[column])
+        cell = std::to_string(std::stod(cell) / 1000.0);
+      made_row += (column == 0 ? "" : ",") + cell;
+    }
+    made += made_row + "\n";
+  }
+  leave(job, "data/poses.csv", made);
+}
+
+TEST(ResultFolder, HoldsNoResultsOfEarlierDataBesideThatTheDataContradict) {
+  const SmallJob job;
+  leave(job, "out/notes.txt", "mine");
+  leave(job, "out/standstills.csv", "mine, too");
+  ASSERT_EQ(diagnose_into(job, "out", {"--propose", "3"}).code, 0);
+  const std::string edited = job.text("out/proposed.csv") + "# measured on Monday\n";
+  leave(job, "out/proposed.csv", edited);
+  shrink_measured_columns(job);
+  const Ended refused = diagnose_into(job, "out");
+  ASSERT_EQ(refused.code, 12) << refused.err;
+  EXPECT_NE(job.text("out/report.json").find("\"method\": \"none\""), std::string::npos);
+  for (const char* const gone : {"model.yaml", "pose-errors.csv"})
+    EXPECT_FALSE(std::filesystem::exists(job.path("out/" + std::string(gone)))) << gone;
+  EXPECT_EQ(job.text("out/.demecal-files").find("model.yaml"), std::string::npos);
+  EXPECT_EQ(job.text("out/notes.txt"), "mine");
+  EXPECT_EQ(job.text("out/standstills.csv"), "mine, too");
+  EXPECT_EQ(job.text("out/proposed.csv"), edited);
+}
+
+TEST(ResultFolder, HoldsNoResultsOfAnEarlierRunThatThisOneDoesNotWrite) {
+  const SmallJob job(5, 1);
+  const std::vector<std::string> calibrate{"calibrate",     job.job(),   "--out",
+                                           job.path("out"), "--workers", "in-process:2"};
+  ASSERT_EQ(run("demecal", calibrate).code, 0);
+  ASSERT_NE(job.text("out/fronts.csv"), "");
+  const std::string edited = job.text("out/history.csv") + "\n";
+  leave(job, "out/history.csv", edited);
+  ASSERT_EQ(diagnose_into(job, "out").code, 0);
+  for (const char* const gone : {"fronts.csv", "events.jsonl"})
+    EXPECT_FALSE(std::filesystem::exists(job.path("out/" + std::string(gone)))) << gone;
+  EXPECT_EQ(job.text("out/history.csv"), edited);
+  std::filesystem::remove(job.path("out/history.csv"));
+  // What a run writes stays, its events among them, which are written all the while.
+  ASSERT_EQ(run("demecal", calibrate).code, 0);
+  for (const char* const kept :
+       {"model.yaml", "report.json", "report.html", "pose-errors.csv", "history.csv", "fronts.csv", "events.jsonl"})
+    EXPECT_NE(job.text("out/" + std::string(kept)), "") << kept;
 }
 
 TEST(ResultFolder, GoesOnAfterARunThatWasKilledOrInterrupted) {

@@ -138,9 +138,22 @@ TEST(Serve, IsUsedInABrowser) {
   EXPECT_THAT(seen["report"].get<std::string>(), HasSubstr("null"));  // its scripts run as of nowhere
   EXPECT_FALSE(seen["wide"]);
   EXPECT_FALSE(seen["phone"]);
+  EXPECT_THAT(seen["left"].get<std::string>(), HasSubstr("poses.csv"));
   EXPECT_EQ(seen["removed"], 0);
   EXPECT_TRUE(seen["signed_out"]);
   EXPECT_FALSE(std::filesystem::exists(job.path("jobs/ann/from-the-page")));
+}
+
+TEST(Serve, IsAloneInItsFolderWhileItLives) {
+  const SmallJob job;
+  Serving serving(job.path("jobs"));
+  ASSERT_FALSE(serving.url().empty());
+  const Ended second = run("demecal", {"serve", "--dir", job.path("jobs"), "--port", "0"});
+  EXPECT_EQ(second.code, 11);
+  EXPECT_THAT(second.err, HasSubstr("--dir"));
+  serving.program().signal(SIGKILL);
+  serving.program().wait();
+  EXPECT_FALSE(Serving(job.path("jobs")).url().empty());
 }
 
 TEST(Serve, SaysWhyARunFailed) {

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "transport/mailbox.hpp"
 
@@ -125,6 +128,37 @@ TEST_F(Presences, NewsOfACalibrationComeFromOneWriterWhileItIsThere) {
   EXPECT_EQ(arrived(), (Messages{news, CalibrationLost{3}}));
   EXPECT_TRUE(reporters.receive(kTwo, news));
   EXPECT_EQ(arrived(), Messages{news});
+}
+
+TEST_F(Presences, ACalibrationThatCameToItsEndIsNotLost) {
+  using Stage = LoopNews::Stage;
+  const std::vector<std::pair<Stage, bool>> stages{{Stage::preparing, false},  {Stage::evolving, false},
+                                                   {Stage::closing, false},    {Stage::finished, true},
+                                                   {Stage::interrupted, true}, {Stage::failed, true}};
+  for (const auto& [stage, is_end] : stages) {
+    CalibrationPresence reporters(mailbox);
+    LoopNews news, round;
+    news.calibration = round.calibration = 3;
+    news.stage = stage;
+    round.round = 1;  // says nothing of the stage
+    reporters.receive(kOne, news);
+    reporters.receive(kOne, round);
+    reporters.departed(kOne);
+    Messages expected{news, round};
+    if (!is_end) expected.emplace_back(CalibrationLost{3});
+    EXPECT_EQ(arrived(), expected) << static_cast<int>(stage);
+  }
+}
+
+TEST_F(Presences, ACalibrationThatGoesOnAfterItsEndCanBeLost) {
+  CalibrationPresence reporters(mailbox);
+  LoopNews interrupted, resumed;
+  interrupted.calibration = resumed.calibration = 3;
+  interrupted.stage = LoopNews::Stage::interrupted;
+  reporters.receive(kOne, interrupted);
+  reporters.receive(kOne, resumed);
+  reporters.departed(kOne);
+  EXPECT_EQ(arrived(), (Messages{interrupted, resumed, CalibrationLost{3}}));
 }
 
 TEST_F(Presences, WritersThatPublishedNothingAreNobody) {

@@ -89,6 +89,10 @@ function card(job) {
       if (tolerance !== null) act(`asking for ${job.name}`, () => send(`${at}/run?tolerance_mm=${encodeURIComponent(tolerance)}`));
     });
     button(row, 'add files', () => pick(job.name));
+    if (job.files.length > 0) button(row, 'remove a file', () => {
+      const file = prompt('Name of the file to be removed:', job.files.at(-1).name);
+      if (file !== null) act(`removing ${file}`, () => send(`${at}/files/${encodeURIComponent(file)}/remove`));
+    });
     button(row, 'remove', () => {
       if (confirm(`Remove the job ${job.name}, its files and its results?`)) act(`removing ${job.name}`, () => send(`${at}/remove`));
     });
