@@ -18,19 +18,17 @@ constexpr double kPlay_m = 50e-6;                   ///< of a ball in its socket
 constexpr double kUnknownNoise_m = 50e-6;           ///< where the arm's repeatability is not known either
 constexpr double kRepeatabilityToAxis = 1.0 / 3.6;  ///< ISO 9283: mean distance plus three deviations, of three axes
 
-std::string radii_sentence(const WorkCell& cell) {
+std::string radii_sentence(const PlanRequest& request, const WorkCell& cell) {
   return fmt::format(
-      "No cell file states how thick the arm is: links are taken to reach {:.0f} mm, the tool {:.0f} mm "
-      "about the lines between the joints.",
+      "{}: links are taken to reach {:.0f} mm, the tool {:.0f} mm about the lines between the joints.",
+      request.cell ? "The cell file states no link_radius_mm" : "No cell file states how thick the arm is",
       millimetres(cell.radii_m.front()), millimetres(cell.radii_m.back()));
 }
 
 void say_surroundings(const PlanRequest& request, const FeasibleSpace& space, Plan& plan) {
   const WorkCell& cell = space.cell();
   auto& say = plan.assumptions;
-  if (!request.cell) say.push_back(radii_sentence(cell));
-  if (request.cell && cell.radii_m.empty())
-    plan.warnings.push_back("The cell file states no link_radius_mm: that the arm may meet itself was not checked.");
+  if (!request.cell || request.cell->radii_m.empty()) say.push_back(radii_sentence(request, cell));
   if (!request.cell && !cell.half_spaces.empty())
     say.push_back("The arm is taken to stand on the plane z = 0 of its base frame and to keep above it.");
   if (cell.half_spaces.empty() && !cell.tool_box && cell.obstacles.empty())

@@ -90,6 +90,7 @@ std::vector<double> assumed_radii(const Chain& chain) {
   constexpr double kLink = 0.04, kTool = 0.015;  // of the reach: of usual industrial arms
   std::vector<double> radii(chain.joints.size() + 1, kLink * reach_m(chain));
   radii.back() = kTool * reach_m(chain);
+  for (double& radius : radii) radius = std::max(radius, kLeastRadius_m);
   return radii;
 }
 
@@ -152,7 +153,7 @@ std::string_view to_string(Obstruction obstruction) {
 }
 
 FeasibleSpace::FeasibleSpace(Robot robot, WorkCell cell) : robot_(std::move(robot)), cell_(std::move(cell)) {
-  radii_m_ = cell_.radii_m.empty() ? std::vector<double>(robot_.chain.joints.size() + 1, 0.0) : cell_.radii_m;
+  if (cell_.radii_m.empty()) cell_.radii_m = assumed_radii(robot_.chain);
   for (std::size_t i = 0; i < robot_.chain.joints.size(); ++i)
     ranges_.push_back(planned_range(robot_.chain.joints[i], i < cell_.ranges.size() ? cell_.ranges[i] : std::nullopt));
 }
@@ -169,11 +170,10 @@ Obstruction FeasibleSpace::of_bodies(const std::vector<ArmPart>& parts, const Ei
       if (!on_foot && lowest - part.body.radius_m < space.height_m) return Obstruction::half_space;
     }
   }
-  if (cell_.radii_m.empty() && cell_.obstacles.empty()) return Obstruction::none;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     for (const Capsule& obstacle : cell_.obstacles)
       if (clearance(parts[i].body, obstacle) < 0.0) return Obstruction::obstacle;
-    for (std::size_t k = 0; !cell_.radii_m.empty() && k < i; ++k)
+    for (std::size_t k = 0; k < i; ++k)
       if (parts_meet(parts[i], parts[k])) return Obstruction::itself;
   }
   return Obstruction::none;
@@ -205,7 +205,7 @@ Obstruction FeasibleSpace::in_passing(const JointVector& joints) const {
     const double value = joints[static_cast<Eigen::Index>(i)];
     if (value < robot_.chain.joints[i].lower || value > robot_.chain.joints[i].upper) return Obstruction::limits;
   }
-  return of_bodies(arm_parts(robot_.chain, joints, radii_m_), tool_position(robot_.chain, joints));
+  return of_bodies(arm_parts(robot_.chain, joints, cell_.radii_m), tool_position(robot_.chain, joints));
 }
 
 Obstruction FeasibleSpace::obstruction(const JointVector& joints) const {
@@ -221,7 +221,7 @@ Obstruction FeasibleSpace::obstruction(const JointVector& joints) const {
     if (angle_between(direction, cell_.tool_cone->about) > cell_.tool_cone->half_angle_rad)
       return Obstruction::tool_cone;
   }
-  const std::vector<ArmPart> parts = arm_parts(robot_.chain, joints, radii_m_);
+  const std::vector<ArmPart> parts = arm_parts(robot_.chain, joints, cell_.radii_m);
   const Obstruction body = of_bodies(parts, tool_m);
   return body == Obstruction::none ? of_view(parts, flange, tool_m) : body;
 }

@@ -50,6 +50,9 @@ bool parts_meet(const ArmPart& one, const ArmPart& other);
 /// The sum of all lengths that links may have, m.
 double reach_m(const Chain& chain);
 
+/// No part of an arm is thinner: smaller radii are metres written for millimetres.
+inline constexpr double kLeastRadius_m = 5e-3;
+
 /// What is assumed of an arm whose thickness nobody states: so much of its reach.
 std::vector<double> assumed_radii(const Chain& chain);
 
@@ -88,7 +91,7 @@ struct WorkCell {
   std::optional<Eigen::AlignedBox3d> tool_box;  ///< m, base frame
   std::vector<HalfSpace> half_spaces;
   std::vector<Capsule> obstacles;
-  std::vector<double> radii_m;  ///< of every link and, last, the tool; empty: nobody knows, nothing is checked
+  std::vector<double> radii_m;  ///< of every link and, last, the tool; empty: assumed_radii()
   std::optional<ToolCone> tool_cone;
   std::optional<Instrument> instrument;
   std::vector<std::optional<Interval>> ranges;  ///< of the joints, within their limits; empty: the limits
@@ -117,6 +120,7 @@ class FeasibleSpace {
  public:
   FeasibleSpace(Robot robot, WorkCell cell);
 
+  /// Whose radii are those assumed where none are stated.
   const WorkCell& cell() const { return cell_; }
   const Robot& robot() const { return robot_; }
   /// Of every joint: within its limits, 2 % of them off their ends, at most one turn about their middle.
@@ -136,7 +140,6 @@ class FeasibleSpace {
 
   Robot robot_;
   WorkCell cell_;
-  std::vector<double> radii_m_;
   std::vector<Interval> ranges_;
 };
 

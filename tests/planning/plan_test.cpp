@@ -47,6 +47,18 @@ TEST(Plan, KeepsTheToolInItsBoxAndOnTheRightSideOfEveryHalfSpace) {
   }
 }
 
+TEST(Plan, SaysWhichRadiiItAssumesWhereACellStatesNone) {
+  const auto of_radii =
+      testing::AllOf(testing::HasSubstr("states no link_radius_mm"), testing::HasSubstr("mm, the tool"));
+  PlanRequest request = request_of(8);
+  request.cell = assumed_cell(request.robot);
+  EXPECT_THAT(make_plan(request).assumptions, testing::Not(testing::Contains(of_radii)));
+  request.cell->radii_m.clear();
+  const Plan plan = make_plan(request);
+  EXPECT_THAT(plan.assumptions, testing::Contains(of_radii));
+  EXPECT_THAT(plan.warnings, testing::Not(testing::Contains(testing::HasSubstr("not checked"))));
+}
+
 TEST(Plan, KeepsTheTargetInTheInstrumentsSight) {
   PlanRequest request = request_of(12);
   request.cell = assumed_cell(request.robot);
