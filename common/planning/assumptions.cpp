@@ -178,11 +178,11 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
     if (!found)
       plan.warnings.push_back("No measurement of this plan shows effects of the kind " + kind + " on this arm.");
   }
-  if (!plan.way.blocked.empty()) {
-    std::string poses;
-    for (const std::size_t i : plan.way.blocked) poses += (poses.empty() ? "" : ", ") + plan.stops[i].id;
-    plan.warnings.push_back("No free way was found to " + poses + " from the pose before: drive there by hand.");
-  }
+  if (!plan.way.blocked.empty())
+    plan.warnings.push_back(
+        fmt::format("No free way was found to {}: programs leave these poses out. Drive there by hand, or measure "
+                    "without them.",
+                    poses_by_hand(plan)));
 }
 
 }  // namespace demecal::inline planning

@@ -1,7 +1,10 @@
 #include "planning/candidates.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
+#include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
 #include "planning/travel.hpp"
 
@@ -22,15 +25,16 @@ JointVector near_one(const FeasibleSpace& space, const std::vector<PlannedPose>&
   return joints;
 }
 
-/// Sides to come from; none where the arm cannot stand at any of those tried.
-ApproachSigns draw_approach(const FeasibleSpace& space, const JointVector& joints, RandomStream& random) {
+/// Draws sides to come from; returns what is in the way from all of those tried.
+Obstruction draw_approach(const FeasibleSpace& space, PlannedPose& pose, RandomStream& random) {
   constexpr int kTries = 4;
+  Obstruction obstruction = Obstruction::none;
   for (int i = 0; i < kTries; ++i) {
-    PlannedPose pose{joints, ApproachSigns(joints.size())};
     for (double& sign : pose.approach) sign = random.chance(0.5) ? 1.0 : -1.0;
-    if (space.in_passing(approach_stop(space.robot().chain, pose)) == Obstruction::none) return pose.approach;
+    obstruction = on_the_way(space, approach_stop(space, pose), pose.joints);
+    if (obstruction == Obstruction::none) break;
   }
-  return {};
+  return obstruction;
 }
 
 }  // namespace
@@ -39,17 +43,14 @@ DrawnPoses draw_poses(const FeasibleSpace& space, std::size_t count, RandomStrea
   DrawnPoses found;
   while (found.poses.size() < count && found.drawn < kMostDraws) {
     const bool uniform = found.poses.empty() || found.drawn < kUniform;
-    const JointVector joints =
+    JointVector joints =
         uniform ? space.draw(random) : rounded(space.robot().chain, near_one(space, found.poses, random));
     ++found.drawn;
     Obstruction obstruction = space.obstruction(joints);
-    ApproachSigns approach;
-    if (obstruction == Obstruction::none) {
-      approach = draw_approach(space, joints, random);
-      if (approach.size() == 0) obstruction = Obstruction::limits;
-    }
+    PlannedPose pose{std::move(joints), ApproachSigns(space.robot().chain.size())};
+    if (obstruction == Obstruction::none) obstruction = draw_approach(space, pose, random);
     ++found.refused[static_cast<std::size_t>(obstruction)];
-    if (obstruction == Obstruction::none) found.poses.push_back({joints, approach});
+    if (obstruction == Obstruction::none) found.poses.push_back(std::move(pose));
   }
   return found;
 }
