@@ -96,6 +96,18 @@ void say_tool(const PlanRequest& request, Plan& plan) {
                   millimetres(lever_m), chain.size()));
 }
 
+/// Without what effects of a kind do not show.
+std::string lacking(const std::string& kind, const Robot& robot) {
+  const Effect any{.kind = kind};
+  const EffectLaw& law = law_of(any);
+  if (law.takes_formula()) return "formulas are found in what was measured";
+  const Needs needs = law.needs(any, robot);
+  if (needs.temperature) return "it takes poses at several temperatures, which a plan does not know of";
+  if (needs.time) return "it takes the times of the poses, which a plan does not know";
+  if (needs.masses && robot.masses.empty()) return "the robot file states no masses of links (`links`)";
+  return "by the robot file there is nothing on this arm that has it";
+}
+
 /// Whether one of these directions is of the same numbers.
 bool is_among(const std::vector<UnidentifiedDirection>& directions, const UnidentifiedDirection& one) {
   const auto numbers = [](const UnidentifiedDirection& direction) {
@@ -176,7 +188,8 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
   for (const std::string& kind : request.detect) {
     const bool found = std::ranges::any_of(plan.effects, [&](const Effect& effect) { return effect.kind == kind; });
     if (!found)
-      plan.warnings.push_back("No measurement of this plan shows effects of the kind " + kind + " on this arm.");
+      plan.warnings.push_back("No measurement of this plan shows effects of the kind " + kind + ": " +
+                              lacking(kind, request.robot) + ".");
   }
   if (!plan.way.blocked.empty())
     plan.warnings.push_back(

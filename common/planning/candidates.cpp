@@ -55,9 +55,39 @@ DrawnPoses draw_poses(const FeasibleSpace& space, std::size_t count, RandomStrea
   return found;
 }
 
+namespace {
+
+/// Where a form of the law stands among its forms, from its first.
+std::size_t rank_of(const EffectLaw& law, const Effect& effect) {
+  const std::vector<std::string> forms = law.forms();
+  if (effect.form.empty() || forms.empty()) return 0;
+  return static_cast<std::size_t>(std::ranges::find(forms, effect.form) - forms.begin());
+}
+
+/// Of each joint those of the first form that its proposals have; of a form that takes another's place the one with
+/// most coefficients.
+std::vector<Effect> plainest(const EffectLaw& law, const Robot& robot, std::vector<Effect> proposals) {
+  std::vector<Effect> kept;
+  const auto size = [&](const Effect& effect) { return law.coefficients(effect, robot).size(); };
+  for (Effect& effect : proposals) {
+    const std::size_t rank = rank_of(law, effect);
+    const bool outdone = std::ranges::any_of(
+        proposals, [&](const Effect& other) { return other.joint == effect.joint && rank_of(law, other) < rank; });
+    if (outdone) continue;
+    const auto known = std::ranges::find(kept, effect.joint, &Effect::joint);
+    if (rank == 0 || known == kept.end())
+      kept.push_back(effect);
+    else if (size(effect) > size(*known))
+      *known = effect;
+  }
+  return kept;
+}
+
+}  // namespace
+
 std::vector<Effect> effects_to_detect(const Robot& robot, const std::vector<Interval>& ranges,
                                       const std::vector<std::string>& kinds, bool orientation) {
-  constexpr int kHighestRatio = 2;
+  constexpr int kHighestRatio = 3;  // the lowest of gear harmonics stands for all: poses tell them alike
   const Evidence evidence{.approach = true,
                           .masses = !robot.masses.empty(),
                           .orientation = orientation,
@@ -65,12 +95,8 @@ std::vector<Effect> effects_to_detect(const Robot& robot, const std::vector<Inte
                           .highest_ratio = kHighestRatio};
   std::vector<Effect> effects;
   for (const EffectLaw* law : catalogue()) {
-    if (std::ranges::find(kinds, law->kind()) == kinds.end()) continue;
-    const std::vector<std::string> forms = law->forms();
-    for (Effect& effect : law->proposals(robot, evidence)) {
-      const bool plain = effect.form.empty() || forms.empty() || effect.form == forms.front();
-      if (plain && !law->takes_formula()) effects.push_back(std::move(effect));
-    }
+    if (std::ranges::find(kinds, law->kind()) == kinds.end() || law->takes_formula()) continue;
+    for (Effect& effect : plainest(*law, robot, law->proposals(robot, evidence))) effects.push_back(std::move(effect));
   }
   return effects;
 }
