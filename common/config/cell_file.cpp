@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "planning/cell.hpp"
@@ -44,14 +45,22 @@ Capsule read_obstacle(const YamlNode& node) {
   return {point_m(node.at("from_mm")), point_m(node.at("to_mm")), metres(node.at("radius_mm").non_negative())};
 }
 
+double radius_of_arm_m(const YamlNode& node) {
+  const double radius_m = metres(node.non_negative());
+  if (radius_m < kLeastRadius_m)
+    node.fail("must be " + number_text(millimetres(kLeastRadius_m)) +
+              " mm or more, for no arm is thinner: a radius in metres has to be written in mm");
+  return radius_m;
+}
+
 std::vector<double> read_radii(const YamlNode& node, const Chain& chain) {
   std::vector<double> radii(chain.joints.size() + 1);
   if (node.kind == YamlNode::Kind::scalar) {
-    for (double& radius : radii) radius = metres(node.non_negative());
+    for (double& radius : radii) radius = radius_of_arm_m(node);
     return radii;
   }
   const auto& items = node.list(radii.size());
-  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = metres(items[i].non_negative());
+  for (std::size_t i = 0; i < radii.size(); ++i) radii[i] = radius_of_arm_m(items[i]);
   return radii;
 }
 

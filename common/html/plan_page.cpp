@@ -74,7 +74,7 @@ std::string view(const Plan& plan, const Robot& robot, int across, int up, const
     const JointVector& joints =
         plan.stops[i * (plan.stops.size() - 1) / std::max<std::size_t>(shown - 1, 1)].pose.joints;
     std::vector<PicturePoint> line;
-    for (const ArmPart& part : arm_parts(robot.chain, joints, thin)) {
+    for (const ArmPart& part : arm_parts(robot.chain, joints, thin, {robot.chain.tool_m})) {
       if (line.empty()) line.emplace_back(x(part.body.from_m), y(part.body.from_m));
       line.emplace_back(x(part.body.to_m), y(part.body.to_m));
     }

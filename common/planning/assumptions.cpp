@@ -18,19 +18,17 @@ constexpr double kPlay_m = 50e-6;                   ///< of a ball in its socket
 constexpr double kUnknownNoise_m = 50e-6;           ///< where the arm's repeatability is not known either
 constexpr double kRepeatabilityToAxis = 1.0 / 3.6;  ///< ISO 9283: mean distance plus three deviations, of three axes
 
-std::string radii_sentence(const WorkCell& cell) {
+std::string radii_sentence(const PlanRequest& request, const WorkCell& cell) {
   return fmt::format(
-      "No cell file states how thick the arm is: links are taken to reach {:.0f} mm, the tool {:.0f} mm "
-      "about the lines between the joints.",
+      "{}: links are taken to reach {:.0f} mm, the tool {:.0f} mm about the lines between the joints.",
+      request.cell ? "The cell file states no link_radius_mm" : "No cell file states how thick the arm is",
       millimetres(cell.radii_m.front()), millimetres(cell.radii_m.back()));
 }
 
 void say_surroundings(const PlanRequest& request, const FeasibleSpace& space, Plan& plan) {
   const WorkCell& cell = space.cell();
   auto& say = plan.assumptions;
-  if (!request.cell) say.push_back(radii_sentence(cell));
-  if (request.cell && cell.radii_m.empty())
-    plan.warnings.push_back("The cell file states no link_radius_mm: that the arm may meet itself was not checked.");
+  if (!request.cell || request.cell->radii_m.empty()) say.push_back(radii_sentence(request, cell));
   if (!request.cell && !cell.half_spaces.empty())
     say.push_back("The arm is taken to stand on the plane z = 0 of its base frame and to keep above it.");
   if (cell.half_spaces.empty() && !cell.tool_box && cell.obstacles.empty())
@@ -96,6 +94,18 @@ void say_tool(const PlanRequest& request, Plan& plan) {
       fmt::format("The target is {:.1f} mm off the axis of joint {}: nothing can be known of that joint's zero. Mount "
                   "it, or a second one, 50 mm or more off the axis.",
                   millimetres(lever_m), chain.size()));
+}
+
+/// Without what effects of a kind do not show.
+std::string lacking(const std::string& kind, const Robot& robot) {
+  const Effect any{.kind = kind};
+  const EffectLaw& law = law_of(any);
+  if (law.takes_formula()) return "formulas are found in what was measured";
+  const Needs needs = law.needs(any, robot);
+  if (needs.temperature) return "it takes poses at several temperatures, which a plan does not know of";
+  if (needs.time) return "it takes the times of the poses, which a plan does not know";
+  if (needs.masses && robot.masses.empty()) return "the robot file states no masses of links (`links`)";
+  return "by the robot file there is nothing on this arm that has it";
 }
 
 /// Whether one of these directions is of the same numbers.
@@ -178,13 +188,14 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
   for (const std::string& kind : request.detect) {
     const bool found = std::ranges::any_of(plan.effects, [&](const Effect& effect) { return effect.kind == kind; });
     if (!found)
-      plan.warnings.push_back("No measurement of this plan shows effects of the kind " + kind + " on this arm.");
+      plan.warnings.push_back("No measurement of this plan shows effects of the kind " + kind + ": " +
+                              lacking(kind, request.robot) + ".");
   }
-  if (!plan.way.blocked.empty()) {
-    std::string poses;
-    for (const std::size_t i : plan.way.blocked) poses += (poses.empty() ? "" : ", ") + plan.stops[i].id;
-    plan.warnings.push_back("No free way was found to " + poses + " from the pose before: drive there by hand.");
-  }
+  if (!plan.way.blocked.empty())
+    plan.warnings.push_back(
+        fmt::format("No free way was found to {}: programs leave these poses out. Drive there by hand, or measure "
+                    "without them.",
+                    poses_by_hand(plan)));
 }
 
 }  // namespace demecal::inline planning

@@ -1,7 +1,10 @@
 #include "planning/candidates.hpp"
 
 #include <algorithm>
+#include <string>
+#include <utility>
 
+#include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
 #include "planning/travel.hpp"
 
@@ -22,15 +25,16 @@ JointVector near_one(const FeasibleSpace& space, const std::vector<PlannedPose>&
   return joints;
 }
 
-/// Sides to come from; none where the arm cannot stand at any of those tried.
-ApproachSigns draw_approach(const FeasibleSpace& space, const JointVector& joints, RandomStream& random) {
+/// Draws sides to come from; returns what is in the way from all of those tried.
+Obstruction draw_approach(const FeasibleSpace& space, PlannedPose& pose, RandomStream& random) {
   constexpr int kTries = 4;
+  Obstruction obstruction = Obstruction::none;
   for (int i = 0; i < kTries; ++i) {
-    PlannedPose pose{joints, ApproachSigns(joints.size())};
     for (double& sign : pose.approach) sign = random.chance(0.5) ? 1.0 : -1.0;
-    if (space.in_passing(approach_stop(space.robot().chain, pose)) == Obstruction::none) return pose.approach;
+    obstruction = on_the_way(space, approach_stop(space, pose), pose.joints);
+    if (obstruction == Obstruction::none) break;
   }
-  return {};
+  return obstruction;
 }
 
 }  // namespace
@@ -39,24 +43,51 @@ DrawnPoses draw_poses(const FeasibleSpace& space, std::size_t count, RandomStrea
   DrawnPoses found;
   while (found.poses.size() < count && found.drawn < kMostDraws) {
     const bool uniform = found.poses.empty() || found.drawn < kUniform;
-    const JointVector joints =
+    JointVector joints =
         uniform ? space.draw(random) : rounded(space.robot().chain, near_one(space, found.poses, random));
     ++found.drawn;
     Obstruction obstruction = space.obstruction(joints);
-    ApproachSigns approach;
-    if (obstruction == Obstruction::none) {
-      approach = draw_approach(space, joints, random);
-      if (approach.size() == 0) obstruction = Obstruction::limits;
-    }
+    PlannedPose pose{std::move(joints), ApproachSigns(space.robot().chain.size())};
+    if (obstruction == Obstruction::none) obstruction = draw_approach(space, pose, random);
     ++found.refused[static_cast<std::size_t>(obstruction)];
-    if (obstruction == Obstruction::none) found.poses.push_back({joints, approach});
+    if (obstruction == Obstruction::none) found.poses.push_back(std::move(pose));
   }
   return found;
 }
 
+namespace {
+
+/// Where a form of the law stands among its forms, from its first.
+std::size_t rank_of(const EffectLaw& law, const Effect& effect) {
+  const std::vector<std::string> forms = law.forms();
+  if (effect.form.empty() || forms.empty()) return 0;
+  return static_cast<std::size_t>(std::ranges::find(forms, effect.form) - forms.begin());
+}
+
+/// Of each joint those of the first form that its proposals have; of a form that takes another's place the one with
+/// most coefficients.
+std::vector<Effect> plainest(const EffectLaw& law, const Robot& robot, std::vector<Effect> proposals) {
+  std::vector<Effect> kept;
+  const auto size = [&](const Effect& effect) { return law.coefficients(effect, robot).size(); };
+  for (Effect& effect : proposals) {
+    const std::size_t rank = rank_of(law, effect);
+    const bool outdone = std::ranges::any_of(
+        proposals, [&](const Effect& other) { return other.joint == effect.joint && rank_of(law, other) < rank; });
+    if (outdone) continue;
+    const auto known = std::ranges::find(kept, effect.joint, &Effect::joint);
+    if (rank == 0 || known == kept.end())
+      kept.push_back(effect);
+    else if (size(effect) > size(*known))
+      *known = effect;
+  }
+  return kept;
+}
+
+}  // namespace
+
 std::vector<Effect> effects_to_detect(const Robot& robot, const std::vector<Interval>& ranges,
                                       const std::vector<std::string>& kinds, bool orientation) {
-  constexpr int kHighestRatio = 2;
+  constexpr int kHighestRatio = 3;  // the lowest of gear harmonics stands for all: poses tell them alike
   const Evidence evidence{.approach = true,
                           .masses = !robot.masses.empty(),
                           .orientation = orientation,
@@ -64,12 +95,8 @@ std::vector<Effect> effects_to_detect(const Robot& robot, const std::vector<Inte
                           .highest_ratio = kHighestRatio};
   std::vector<Effect> effects;
   for (const EffectLaw* law : catalogue()) {
-    if (std::ranges::find(kinds, law->kind()) == kinds.end()) continue;
-    const std::vector<std::string> forms = law->forms();
-    for (Effect& effect : law->proposals(robot, evidence)) {
-      const bool plain = effect.form.empty() || forms.empty() || effect.form == forms.front();
-      if (plain && !law->takes_formula()) effects.push_back(std::move(effect));
-    }
+    if (std::ranges::find(kinds, law->kind()) == kinds.end() || law->takes_formula()) continue;
+    for (Effect& effect : plainest(*law, robot, law->proposals(robot, evidence))) effects.push_back(std::move(effect));
   }
   return effects;
 }

@@ -23,7 +23,7 @@ struct DrawnPoses {
 DrawnPoses draw_poses(const FeasibleSpace& space, std::size_t count, RandomStream random);
 
 /// The effects of these kinds that a measurement from both sides of every joint could show on this arm: of each kind
-/// its plainest form.
+/// and joint the plainest form that the arm's description allows.
 std::vector<Effect> effects_to_detect(const Robot& robot, const std::vector<Interval>& ranges,
                                       const std::vector<std::string>& kinds, bool orientation);
 

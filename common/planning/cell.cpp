@@ -46,7 +46,8 @@ double clearance(const Capsule& one, const Capsule& other) {
   return segment_distance(one.from_m, one.to_m, other.from_m, other.to_m) - one.radius_m - other.radius_m;
 }
 
-std::vector<ArmPart> arm_parts(const Chain& chain, const JointVector& q, const std::vector<double>& radii_m) {
+std::vector<ArmPart> arm_parts(const Chain& chain, const JointVector& q, const std::vector<double>& radii_m,
+                               const std::vector<Eigen::Vector3d>& targets_m) {
   std::vector<ArmPart> parts;
   Eigen::Vector3d here = Eigen::Vector3d::Zero();
   double along = 0.0;
@@ -66,7 +67,13 @@ std::vector<ArmPart> arm_parts(const Chain& chain, const JointVector& q, const s
       },
       [](int, Eigen::Isometry3d&) {});
   reach(flange.translation(), link);
-  reach(flange * chain.tool_m, chain.size());
+  const Eigen::Vector3d end_m = here;
+  const double arm_m = along;
+  for (const Eigen::Vector3d& target_m : targets_m) {
+    here = end_m;
+    along = arm_m;
+    reach(flange * target_m, chain.size());
+  }
   return parts;
 }
 
@@ -90,6 +97,7 @@ std::vector<double> assumed_radii(const Chain& chain) {
   constexpr double kLink = 0.04, kTool = 0.015;  // of the reach: of usual industrial arms
   std::vector<double> radii(chain.joints.size() + 1, kLink * reach_m(chain));
   radii.back() = kTool * reach_m(chain);
+  for (double& radius : radii) radius = std::max(radius, kLeastRadius_m);
   return radii;
 }
 
@@ -105,6 +113,14 @@ Interval planned_range(const Joint& joint, const std::optional<Interval>& stated
     range = {middle - std::numbers::pi, middle + std::numbers::pi};
   }
   return range;
+}
+
+bool all_within(const std::vector<Interval>& ranges, const JointVector& joints) {
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const double value = joints[static_cast<Eigen::Index>(i)];
+    if (value < ranges[i].lower || value > ranges[i].upper) return false;
+  }
+  return true;
 }
 
 /// The angle between two directions, rad.
@@ -151,79 +167,101 @@ std::string_view to_string(Obstruction obstruction) {
   return kWords[static_cast<std::size_t>(obstruction)];
 }
 
-FeasibleSpace::FeasibleSpace(Robot robot, WorkCell cell) : robot_(std::move(robot)), cell_(std::move(cell)) {
-  radii_m_ = cell_.radii_m.empty() ? std::vector<double>(robot_.chain.joints.size() + 1, 0.0) : cell_.radii_m;
-  for (std::size_t i = 0; i < robot_.chain.joints.size(); ++i)
-    ranges_.push_back(planned_range(robot_.chain.joints[i], i < cell_.ranges.size() ? cell_.ranges[i] : std::nullopt));
+FeasibleSpace::FeasibleSpace(Robot robot, WorkCell cell, std::vector<Eigen::Vector3d> targets_m)
+    : robot_(std::move(robot)), cell_(std::move(cell)), targets_m_(std::move(targets_m)) {
+  if (cell_.radii_m.empty()) cell_.radii_m = assumed_radii(robot_.chain);
+  if (targets_m_.empty()) targets_m_.push_back(robot_.chain.tool_m);
+  for (std::size_t i = 0; i < robot_.chain.joints.size(); ++i) {
+    const Joint& joint = robot_.chain.joints[i];
+    const std::optional<Interval> stated = i < cell_.ranges.size() ? cell_.ranges[i] : std::nullopt;
+    ranges_.push_back(planned_range(joint, stated));
+    passing_ranges_.push_back(stated ? ranges_.back() : Interval{joint.lower, joint.upper});
+  }
 }
 
-Obstruction FeasibleSpace::of_bodies(const std::vector<ArmPart>& parts, const Eigen::Vector3d& tool_m) const {
+FeasibleSpace::Posture FeasibleSpace::posture(const JointVector& joints) const {
+  Posture posture{forward(robot_.chain, joints), {}, arm_parts(robot_.chain, joints, cell_.radii_m, targets_m_)};
+  for (const Eigen::Vector3d& target_m : targets_m_) posture.targets_m.push_back(posture.flange * target_m);
+  return posture;
+}
+
+Obstruction FeasibleSpace::of_bodies(const Posture& posture) const {
   constexpr double kOnBase_m = 1e-6;  // the foot of the arm stands in the plane that the rest keeps off
+  const auto in_box = [&](const Eigen::Vector3d& target_m) { return cell_.tool_box->contains(target_m); };
+  if (cell_.tool_box && !std::ranges::all_of(posture.targets_m, in_box)) return Obstruction::tool_box;
   for (const HalfSpace& space : cell_.half_spaces) {
-    if (space.normal.dot(tool_m) < space.height_m) return Obstruction::half_space;
+    for (const Eigen::Vector3d& target_m : posture.targets_m)
+      if (space.normal.dot(target_m) < space.height_m) return Obstruction::half_space;
     if (!space.of_arm) continue;
-    for (const ArmPart& part : parts) {
+    for (const ArmPart& part : posture.parts) {
       if (part.begin_m < kOnBase_m) continue;
       const double lowest = std::min(space.normal.dot(part.body.from_m), space.normal.dot(part.body.to_m));
       const bool on_foot = part.link == 0;
       if (!on_foot && lowest - part.body.radius_m < space.height_m) return Obstruction::half_space;
     }
   }
-  if (cell_.radii_m.empty() && cell_.obstacles.empty()) return Obstruction::none;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (std::size_t i = 0; i < posture.parts.size(); ++i) {
     for (const Capsule& obstacle : cell_.obstacles)
-      if (clearance(parts[i].body, obstacle) < 0.0) return Obstruction::obstacle;
-    for (std::size_t k = 0; !cell_.radii_m.empty() && k < i; ++k)
-      if (parts_meet(parts[i], parts[k])) return Obstruction::itself;
+      if (clearance(posture.parts[i].body, obstacle) < 0.0) return Obstruction::obstacle;
+    for (std::size_t k = 0; k < i; ++k)
+      if (parts_meet(posture.parts[i], posture.parts[k])) return Obstruction::itself;
   }
   return Obstruction::none;
 }
 
-Obstruction FeasibleSpace::of_view(const std::vector<ArmPart>& parts, const Eigen::Isometry3d& flange,
-                                   const Eigen::Vector3d& tool_m) const {
-  if (!cell_.instrument) return Obstruction::none;
+Obstruction FeasibleSpace::of_view(const Posture& posture, const Eigen::Vector3d& target_m) const {
+  constexpr double kOnFlange_m = 1e-3;
   const Instrument& instrument = *cell_.instrument;
-  const Eigen::Vector3d to_instrument = instrument.position_m - tool_m;
+  const Eigen::Vector3d to_instrument = instrument.position_m - target_m;
   const double distance = to_instrument.norm();
   if (distance < instrument.nearest_m || distance > instrument.farthest_m) return Obstruction::range;
   if (instrument.target_direction) {
-    const Eigen::Vector3d looks = flange.linear() * *instrument.target_direction;
+    const Eigen::Vector3d looks = posture.flange.linear() * *instrument.target_direction;
     if (angle_between(looks, to_instrument) > instrument.half_angle_rad) return Obstruction::target_cone;
   }
   if (!instrument.line_of_sight) return Obstruction::none;
-  const Capsule beam{instrument.position_m, tool_m, 0.0};
+  const Capsule beam{instrument.position_m, target_m, 0.0};
   for (const Capsule& obstacle : cell_.obstacles)
     if (clearance(beam, obstacle) < 0.0) return Obstruction::sight;
-  // The last part carries the target: the beam ends on it.
-  for (std::size_t i = 0; i + 1 < parts.size(); ++i)
-    if (clearance(beam, parts[i].body) < 0.0) return Obstruction::sight;
+  // What carries targets ends the beam: the tool, or the last link where a target is on it.
+  for (const ArmPart& part : posture.parts) {
+    const bool carries = part.link == robot_.chain.size() || (part.body.to_m - target_m).norm() < kOnFlange_m;
+    if (!carries && clearance(beam, part.body) < 0.0) return Obstruction::sight;
+  }
+  return Obstruction::none;
+}
+
+Obstruction FeasibleSpace::of_view(const Posture& posture) const {
+  if (!cell_.instrument) return Obstruction::none;
+  for (const Eigen::Vector3d& target_m : posture.targets_m)
+    if (const Obstruction view = of_view(posture, target_m); view != Obstruction::none) return view;
   return Obstruction::none;
 }
 
 Obstruction FeasibleSpace::in_passing(const JointVector& joints) const {
-  for (std::size_t i = 0; i < robot_.chain.joints.size(); ++i) {
-    const double value = joints[static_cast<Eigen::Index>(i)];
-    if (value < robot_.chain.joints[i].lower || value > robot_.chain.joints[i].upper) return Obstruction::limits;
-  }
-  return of_bodies(arm_parts(robot_.chain, joints, radii_m_), tool_position(robot_.chain, joints));
+  return all_within(passing_ranges_, joints) ? of_bodies(posture(joints)) : Obstruction::limits;
+}
+
+std::vector<Eigen::Vector3d> FeasibleSpace::part_ends(const JointVector& joints) const {
+  std::vector<Eigen::Vector3d> ends;
+  const Eigen::Isometry3d flange = walk(
+      robot_.chain, joints, [&](int, LinkParameter, const Screw& screw) { ends.push_back(screw.origin); },
+      [](int, Eigen::Isometry3d&) {});
+  ends.push_back(flange.translation());
+  for (const Eigen::Vector3d& target_m : targets_m_) ends.push_back(flange * target_m);
+  return ends;
 }
 
 Obstruction FeasibleSpace::obstruction(const JointVector& joints) const {
-  for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    const double value = joints[static_cast<Eigen::Index>(i)];
-    if (value < ranges_[i].lower || value > ranges_[i].upper) return Obstruction::limits;
-  }
-  const Eigen::Isometry3d flange = forward(robot_.chain, joints);
-  const Eigen::Vector3d tool_m = flange * robot_.chain.tool_m;
-  if (cell_.tool_box && !cell_.tool_box->contains(tool_m)) return Obstruction::tool_box;
+  if (!all_within(ranges_, joints)) return Obstruction::limits;
+  const Posture posture = this->posture(joints);
   if (cell_.tool_cone) {
-    const Eigen::Vector3d direction = flange.linear() * cell_.tool_cone->tool_direction;
+    const Eigen::Vector3d direction = posture.flange.linear() * cell_.tool_cone->tool_direction;
     if (angle_between(direction, cell_.tool_cone->about) > cell_.tool_cone->half_angle_rad)
       return Obstruction::tool_cone;
   }
-  const std::vector<ArmPart> parts = arm_parts(robot_.chain, joints, radii_m_);
-  const Obstruction body = of_bodies(parts, tool_m);
-  return body == Obstruction::none ? of_view(parts, flange, tool_m) : body;
+  const Obstruction body = of_bodies(posture);
+  return body == Obstruction::none ? of_view(posture) : body;
 }
 
 JointVector FeasibleSpace::draw(RandomStream& random) const {

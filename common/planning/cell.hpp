@@ -32,7 +32,7 @@ double segment_distance(const Eigen::Vector3d& from1, const Eigen::Vector3d& to1
 /// How far the surfaces of two capsules are apart, m; below 0 where they meet.
 double clearance(const Capsule& one, const Capsule& other);
 
-/// A part of the arm: the line along one of a link's offsets, or from the flange to the tool point.
+/// A part of the arm: the line along one of a link's offsets, or from the flange to a target.
 struct ArmPart {
   int link = 0;          ///< whose offset it is, from 0; the number of joints: the tool
   double begin_m = 0.0;  ///< where it begins and ends along the arm, from the base
@@ -40,8 +40,10 @@ struct ArmPart {
   Capsule body;
 };
 
-/// The parts from the base on, at joint values `q`. `radii_m`: of every link and, last, the tool.
-std::vector<ArmPart> arm_parts(const Chain& chain, const JointVector& q, const std::vector<double>& radii_m);
+/// The parts from the base on, at joint values `q`. `radii_m`: of every link and, last, the tool; `targets_m`: where
+/// parts lead to from the flange, last link's frame.
+std::vector<ArmPart> arm_parts(const Chain& chain, const JointVector& q, const std::vector<double>& radii_m,
+                               const std::vector<Eigen::Vector3d>& targets_m);
 
 /// Whether two parts of an arm meet. Parts that are near each other along the arm always do, or can never: they do not
 /// count.
@@ -49,6 +51,9 @@ bool parts_meet(const ArmPart& one, const ArmPart& other);
 
 /// The sum of all lengths that links may have, m.
 double reach_m(const Chain& chain);
+
+/// No part of an arm is thinner: smaller radii are metres written for millimetres.
+inline constexpr double kLeastRadius_m = 5e-3;
 
 /// What is assumed of an arm whose thickness nobody states: so much of its reach.
 std::vector<double> assumed_radii(const Chain& chain);
@@ -88,7 +93,7 @@ struct WorkCell {
   std::optional<Eigen::AlignedBox3d> tool_box;  ///< m, base frame
   std::vector<HalfSpace> half_spaces;
   std::vector<Capsule> obstacles;
-  std::vector<double> radii_m;  ///< of every link and, last, the tool; empty: nobody knows, nothing is checked
+  std::vector<double> radii_m;  ///< of every link and, last, the tool; empty: assumed_radii()
   std::optional<ToolCone> tool_cone;
   std::optional<Instrument> instrument;
   std::vector<std::optional<Interval>> ranges;  ///< of the joints, within their limits; empty: the limits
@@ -115,29 +120,41 @@ std::string_view to_string(Obstruction obstruction);
 /// The arm in its cell.
 class FeasibleSpace {
  public:
-  FeasibleSpace(Robot robot, WorkCell cell);
+  /// `targets_m`: all that are measured, last link's frame; none: the robot's tool point.
+  FeasibleSpace(Robot robot, WorkCell cell, std::vector<Eigen::Vector3d> targets_m = {});
 
+  /// Whose radii are those assumed where none are stated.
   const WorkCell& cell() const { return cell_; }
   const Robot& robot() const { return robot_; }
   /// Of every joint: within its limits, 2 % of them off their ends, at most one turn about their middle.
   const std::vector<Interval>& ranges() const { return ranges_; }
 
-  /// What keeps the arm from being measured there.
+  /// What keeps the arm from being measured there, or one of its targets.
   Obstruction obstruction(const JointVector& joints) const;
-  /// The same of passing there: the instrument need not see it, nor the tool keep to its cone.
+  /// The same of passing there: the instrument need not see it, nor the tool keep to its cone, and joints whose range
+  /// nobody states may be anywhere within their limits.
   Obstruction in_passing(const JointVector& joints) const;
+  /// The ends of all parts of the arm: a part moves by no more than its ends.
+  std::vector<Eigen::Vector3d> part_ends(const JointVector& joints) const;
   /// Joints uniform in the ranges, feasible or not.
   JointVector draw(RandomStream& random) const;
 
  private:
-  Obstruction of_bodies(const std::vector<ArmPart>& parts, const Eigen::Vector3d& tool_m) const;
-  Obstruction of_view(const std::vector<ArmPart>& parts, const Eigen::Isometry3d& flange,
-                      const Eigen::Vector3d& tool_m) const;
+  /// The arm at some joints.
+  struct Posture {
+    Eigen::Isometry3d flange;
+    std::vector<Eigen::Vector3d> targets_m;  ///< base frame
+    std::vector<ArmPart> parts;
+  };
+  Posture posture(const JointVector& joints) const;
+  Obstruction of_bodies(const Posture& posture) const;
+  Obstruction of_view(const Posture& posture) const;
+  Obstruction of_view(const Posture& posture, const Eigen::Vector3d& target_m) const;
 
   Robot robot_;
   WorkCell cell_;
-  std::vector<double> radii_m_;
-  std::vector<Interval> ranges_;
+  std::vector<Eigen::Vector3d> targets_m_;
+  std::vector<Interval> ranges_, passing_ranges_;
 };
 
 }  // namespace demecal::inline planning

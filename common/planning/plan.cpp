@@ -15,18 +15,15 @@
 #include "planning/candidates.hpp"
 #include "planning/exchange.hpp"
 #include "planning/sockets.hpp"
+#include "planning/stops.hpp"
 #include "random/random_purpose.hpp"
 
 namespace demecal::inline planning {
 namespace {
 
-constexpr int kUsualPoses = 40, kMostPoses = 400, kFewestJudging = 10;
+constexpr int kUsualPoses = 40, kMostPoses = 400;
 constexpr std::size_t kWorkspacePlaces = 250;  ///< of the workspace that errors are predicted at
 constexpr int kExchangeRounds = 4;
-
-int judging(const std::optional<int>& asked, int calibration) {
-  return asked ? *asked : std::max(kFewestJudging, static_cast<int>(std::lround(0.3 * calibration)));
-}
 
 PlannedModel model_of(const PlanRequest& request, const FeasibleSpace& space) {
   PlannedModel model;
@@ -61,30 +58,9 @@ FeasibleSpace space_of(const PlanRequest& request) {
                   : request.places ? assumed_cell_of_sockets(request.robot)
                                    : assumed_cell(request.robot);
   if (request.places) cell.instrument.reset();
-  return {request.robot, std::move(cell)};
-}
-
-/// Of short travel; where sockets are touched, one after another.
-std::vector<PlannedStop> in_order(const Chain& chain, const std::vector<PlannedStop>& stops) {
-  std::map<std::size_t, std::vector<std::size_t>> by_socket;
-  for (std::size_t i = 0; i < stops.size(); ++i) by_socket[stops[i].pose.socket.value_or(0)].push_back(i);
-  std::vector<PlannedStop> ordered;
-  for (const auto& [socket, members] : by_socket) {
-    std::vector<PlannedPose> poses;
-    for (const std::size_t i : members) poses.push_back(stops[i].pose);
-    for (const std::size_t i : short_order(chain, poses)) ordered.push_back(stops[members[i]]);
-  }
-  return ordered;
-}
-
-void add_stops(std::span<const PlannedPose> from, std::size_t count, PoseSet set, std::vector<PlannedStop>& stops) {
-  for (const PlannedPose& pose : from.first(std::min(count, from.size()))) stops.push_back({{}, set, pose});
-}
-
-/// Of a contact that few poses touch nobody knows how well they agree.
-std::size_t at_sockets(const std::optional<int>& asked, std::size_t usual, std::size_t sockets) {
-  constexpr std::size_t kFewestEach = 4;
-  return asked ? usual : std::max(usual, kFewestEach * sockets);
+  std::vector<Eigen::Vector3d> targets_m;
+  for (const auto& [target, target_m] : request.tools_m) targets_m.push_back(target_m);
+  return {request.robot, std::move(cell), std::move(targets_m)};
 }
 
 /// The planning of one request, step by step.
@@ -260,16 +236,7 @@ class Planning {
       add_stops(places, validation, PoseSet::validation, stops);
       add_stops(places.subspan(validation), accept, PoseSet::accept, stops);
     }
-    std::vector<PlannedPose> poses;
-    for (PlannedStop& stop : in_order(request_.robot.chain, stops)) {
-      stop.id = "P" + std::to_string(plan_.stops.size() + 1);
-      ++plan_.counts[static_cast<std::size_t>(stop.set)];
-      poses.push_back(stop.pose);
-      plan_.stops.push_back(std::move(stop));
-    }
-    if (!request_.places) plan_.way = way_along(space_, poses, stream(3));
-    for (std::size_t i = 1; i < plan_.way.stops.size(); ++i)
-      plan_.travel_rad += travel(request_.robot.chain, plan_.way.stops[i - 1].joints, plan_.way.stops[i].joints);
+    order_stops(space_, std::move(stops), stream(3), plan_);
   }
 
   const PlanRequest& request_;

@@ -16,7 +16,7 @@
 #include "planning/cell.hpp"
 #include "planning/information.hpp"
 #include "planning/sockets.hpp"
-#include "planning/travel.hpp"
+#include "planning/way.hpp"
 
 namespace demecal::inline planning {
 
@@ -64,7 +64,8 @@ struct DetectableSize {
 
 struct Plan {
   std::vector<PlannedStop> stops;       ///< in the order of measuring
-  MeasuringWay way;                     ///< `pose` of its stops: of `stops`; empty where sockets are touched
+  MeasuringWay way;                     ///< `pose` of its stops: of `stops`, those it does not reach are the last of
+                                        ///< them; empty where sockets are touched
   double travel_rad = 0.0;              ///< of the joint that moves most, summed up along the way
   std::array<std::size_t, 3> counts{};  ///< of stops by PoseSet
   double noise_m = 0.0;                 ///< of a measured position, per axis, as the predictions take it
@@ -83,6 +84,9 @@ struct Plan {
   std::array<std::size_t, kObstructions> refused{};
   std::vector<Effect> effects;  ///< that it can tell apart
 };
+
+/// The ids of the poses that no free way was found to: "P64, P65"; empty where there are none.
+std::string poses_by_hand(const Plan& plan);
 
 /// The plan of a request; a function of its arguments. Throws InputError where the cell leaves fewer feasible poses
 /// than are asked for, naming what refuses most, and where no number of poses is predicted to reach the accuracy.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "kinematics/units.hpp"
 
@@ -35,21 +34,10 @@ void reverse_parts(const Chain& chain, const std::vector<PlannedPose>& poses, st
   }
 }
 
-/// One stop between that makes the way free, the shortest of several; nothing where none was found.
-std::optional<JointVector> detour(const FeasibleSpace& space, const JointVector& from, const JointVector& to,
-                                  RandomStream& random) {
-  constexpr int kTries = 200;
-  const Chain& chain = space.robot().chain;
-  std::optional<JointVector> best;
-  double shortest = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < kTries; ++i) {
-    const JointVector between = i == 0 && space.robot().home.size() > 0 ? space.robot().home : space.draw(random);
-    const double length = travel(chain, from, between) + travel(chain, between, to);
-    if (length >= shortest || !is_free(space, from, between) || !is_free(space, between, to)) continue;
-    shortest = length;
-    best = between;
-  }
-  return best;
+double farthest(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
+  double most_m = 0.0;
+  for (std::size_t i = 0; i < from.size(); ++i) most_m = std::max(most_m, (to[i] - from[i]).norm());
+  return most_m;
 }
 
 }  // namespace
@@ -79,47 +67,48 @@ std::vector<std::size_t> short_order(const Chain& chain, const std::vector<Plann
   return order;
 }
 
-JointVector approach_stop(const Chain& chain, const PlannedPose& pose) {
-  constexpr double kTurn_rad = radians(3.0), kSlide_m = 5e-3, kOfRange = 0.015;
+JointVector approach_stop(const FeasibleSpace& space, const PlannedPose& pose) {
+  constexpr double kTurn_rad = radians(3.0), kSlide_m = 5e-3, kOfLimits = 0.015, kOfRange = 0.25;
+  const Chain& chain = space.robot().chain;
   JointVector before = pose.joints;
   if (pose.approach.size() == 0) return before;
   for (int i = 0; i < chain.size(); ++i) {
     const Joint& joint = chain.joints[static_cast<std::size_t>(i)];
+    const Interval& range = space.ranges()[static_cast<std::size_t>(i)];
     const double usual = is_revolute(joint) ? kTurn_rad : kSlide_m;
-    before[i] -= pose.approach[i] * std::min(usual, kOfRange * (joint.upper - joint.lower));
+    before[i] -= pose.approach[i] *
+                 std::min({usual, kOfLimits * (joint.upper - joint.lower), kOfRange * (range.upper - range.lower)});
   }
   return before;
 }
 
 bool is_feasible(const FeasibleSpace& space, const PlannedPose& pose) {
-  return space.obstruction(pose.joints) == Obstruction::none &&
-         space.in_passing(approach_stop(space.robot().chain, pose)) == Obstruction::none;
+  return space.obstruction(pose.joints) == Obstruction::none && is_free(space, approach_stop(space, pose), pose.joints);
+}
+
+Obstruction on_the_way(const FeasibleSpace& space, const JointVector& from, const JointVector& to) {
+  constexpr double kStep = radians(5.0);
+  constexpr double kMostLooks = 200.0;  // between two steps
+  const int steps = 1 + static_cast<int>(travel(space.robot().chain, from, to) / kStep);
+  const auto at = [&](double step) -> JointVector { return from + (to - from) * (step / steps); };
+  std::vector<std::vector<Eigen::Vector3d>> ends;
+  for (int i = 0; i <= steps; ++i) {
+    const JointVector there = at(i);
+    if (const Obstruction met = space.in_passing(there); met != Obstruction::none) return met;
+    ends.push_back(space.part_ends(there));
+  }
+  const double thinnest_m = std::max(kLeastRadius_m, std::ranges::min(space.cell().radii_m));
+  for (int i = 0; i < steps; ++i) {
+    const auto before = static_cast<std::size_t>(i);
+    const double looks = std::min(kMostLooks, std::ceil(farthest(ends[before], ends[before + 1]) / thinnest_m));
+    for (int k = 1; k < looks; ++k)
+      if (const Obstruction met = space.in_passing(at(i + k / looks)); met != Obstruction::none) return met;
+  }
+  return Obstruction::none;
 }
 
 bool is_free(const FeasibleSpace& space, const JointVector& from, const JointVector& to) {
-  constexpr double kStep = radians(5.0);
-  const int steps = 1 + static_cast<int>(travel(space.robot().chain, from, to) / kStep);
-  for (int i = 1; i <= steps; ++i) {
-    const JointVector there = from + (to - from) * (static_cast<double>(i) / steps);
-    if (space.in_passing(there) != Obstruction::none) return false;
-  }
-  return true;
-}
-
-MeasuringWay way_along(const FeasibleSpace& space, const std::vector<PlannedPose>& poses, RandomStream random) {
-  MeasuringWay way;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const JointVector before = approach_stop(space.robot().chain, poses[i]);
-    if (i > 0 && !is_free(space, poses[i - 1].joints, before)) {
-      if (const auto between = detour(space, poses[i - 1].joints, before, random))
-        way.stops.push_back({*between});
-      else
-        way.blocked.push_back(i);
-    }
-    if (before != poses[i].joints) way.stops.push_back({before});
-    way.stops.push_back({poses[i].joints, static_cast<int>(i)});
-  }
-  return way;
+  return on_the_way(space, from, to) == Obstruction::none;
 }
 
 }  // namespace demecal::inline planning

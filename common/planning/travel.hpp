@@ -1,4 +1,4 @@
-// In which order to visit poses, and by which way from one to the next.
+// In which order to visit poses, and what is in the way of straight motions.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,6 @@
 
 #include "planning/cell.hpp"
 #include "planning/information.hpp"
-#include "random/random_stream.hpp"
 
 namespace demecal::inline planning {
 
@@ -17,27 +16,16 @@ double travel(const Chain& chain, const JointVector& from, const JointVector& to
 std::vector<std::size_t> short_order(const Chain& chain, const std::vector<PlannedPose>& poses);
 
 /// Where the arm goes first, so that every joint comes to the pose from the side that is wanted.
-JointVector approach_stop(const Chain& chain, const PlannedPose& pose);
+JointVector approach_stop(const FeasibleSpace& space, const PlannedPose& pose);
 
 /// Whether the arm can be measured there and can come to it from the side that is wanted.
 bool is_feasible(const FeasibleSpace& space, const PlannedPose& pose);
 
-/// Whether nothing is in the way as all joints move together from one stop to another.
+/// What the arm meets as all joints move together from one stop to another, both included: it is looked at wherever a
+/// part has moved by the radius of the thinnest.
+Obstruction on_the_way(const FeasibleSpace& space, const JointVector& from, const JointVector& to);
+
+/// Whether nothing is in the way there.
 bool is_free(const FeasibleSpace& space, const JointVector& from, const JointVector& to);
-
-/// One stop of the way.
-struct WayStop {
-  JointVector joints;
-  int pose = -1;  ///< which pose is measured here; -1: only passed
-};
-
-struct MeasuringWay {
-  std::vector<WayStop> stops;
-  std::vector<std::size_t> blocked;  ///< poses that no free way was found to from the one before
-};
-
-/// The way along `poses` in their order: to each through its approach stop, with other stops between where the straight
-/// way is not free.
-MeasuringWay way_along(const FeasibleSpace& space, const std::vector<PlannedPose>& poses, RandomStream random);
 
 }  // namespace demecal::inline planning

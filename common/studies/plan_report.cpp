@@ -168,6 +168,8 @@ std::string to_json(const Plan& plan, const PlanRequest& request, const std::vec
   json["travel_deg"] = degrees(plan.travel_rad);
   json["stops"] = Json::array();
   for (const PlannedStop& stop : plan.stops) json["stops"].push_back(stop_json(stop, plan, request.robot));
+  json["by_hand"] = Json::array();
+  for (const std::size_t i : plan.way.blocked) json["by_hand"].push_back(plan.stops[i].id);
   json["files"] = files;
   constexpr int kIndent = 1;
   return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + '\n';

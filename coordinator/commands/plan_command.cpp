@@ -15,6 +15,7 @@
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/planned_files.hpp"
+#include "drafting/planned_programs.hpp"
 #include "effects/catalogue.hpp"
 #include "html/page.hpp"
 #include "languages/languages.hpp"
@@ -79,20 +80,6 @@ PlanRequest plan_request(const PlanCommand& command) {
   return request;
 }
 
-/// The plan's way as stops of a program: P1 is measured, A1 comes before it, W1 is on the way.
-std::vector<ProgrammedStop> programmed(const Plan& plan) {
-  std::vector<ProgrammedStop> stops;
-  int next = 1;
-  for (std::size_t i = 0; i < plan.way.stops.size(); ++i) {
-    const WayStop& stop = plan.way.stops[i];
-    const bool before = stop.pose < 0 && i + 1 < plan.way.stops.size() && plan.way.stops[i + 1].pose >= 0;
-    const std::string number = std::to_string(next);
-    if (stop.pose >= 0) ++next;
-    stops.push_back({(stop.pose >= 0 ? "P" : before ? "A" : "W") + number, stop.joints, stop.pose >= 0});
-  }
-  return stops;
-}
-
 std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request) {
   std::vector<NamedText> files{{"poses.csv", planned_poses_csv(plan, request)},
                                {"DATASET.yaml", planned_data_set_text(plan, request)},
@@ -100,10 +87,8 @@ std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request) {
                                {"robot.yaml", yaml_comment("the robot that was planned for, nominal") +
                                                   "demecal_robot: 1\n" + robot_text(request.robot)},
                                {"plan.html", plan_html(plan, request)}};
-  const std::vector<ProgrammedStop> stops = programmed(plan);
   for (const Language& language : all_languages()) {
-    if (language.write == nullptr || stops.empty()) continue;
-    std::string text = language.write(stops, request.robot.chain);
+    std::string text = planned_program(plan, request.robot.chain, language);
     if (!text.empty()) files.push_back({"program." + std::string(written_ending(language)), std::move(text)});
   }
   return files;

@@ -34,12 +34,28 @@ TEST(ArmParts, LeadFromTheBaseToTheToolPoint) {
   for (const Convention convention : kConventions) {
     const Chain chain = random_arm(random, 6, convention);
     const JointVector joints = random_joints(random, chain);
-    const auto parts = arm_parts(chain, joints, std::vector<double>(7, 0.01));
+    const auto parts = arm_parts(chain, joints, std::vector<double>(7, 0.01), {chain.tool_m});
     ASSERT_FALSE(parts.empty());
     EXPECT_NEAR(parts.front().body.from_m.norm(), 0.0, 1e-12);
     EXPECT_NEAR((parts.back().body.to_m - tool_position(chain, joints)).norm(), 0.0, 1e-12);
     for (std::size_t i = 1; i < parts.size(); ++i)
       EXPECT_NEAR((parts[i].body.from_m - parts[i - 1].body.to_m).norm(), 0.0, 1e-12);
+  }
+}
+
+TEST(ArmParts, LeadFromTheFlangeToEveryTarget) {
+  RandomStream random{9003};
+  const Chain chain = random_arm(random, 6, Convention::standard_dh);
+  const JointVector joints = random_joints(random, chain);
+  const std::vector<Eigen::Vector3d> targets_m{{0.0, 0.0, 0.3}, {0.0, 0.2, 0.1}};
+  const auto parts = arm_parts(chain, joints, std::vector<double>(7, 0.01), targets_m);
+  const Eigen::Isometry3d flange = forward(chain, joints);
+  ASSERT_GE(parts.size(), 3u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const ArmPart& part = parts[parts.size() - 2 + i];
+    EXPECT_EQ(part.link, 6);
+    EXPECT_NEAR((part.body.from_m - flange.translation()).norm(), 0.0, 1e-3);
+    EXPECT_NEAR((part.body.to_m - flange * targets_m[i]).norm(), 0.0, 1e-12);
   }
 }
 

@@ -6,6 +6,7 @@
 #include "fitting/fit.hpp"
 #include "planning/plan.hpp"
 #include "planning/planned_arm.hpp"
+#include "planning/travel.hpp"
 
 namespace demecal {
 namespace {
@@ -27,12 +28,12 @@ TEST(Plan, HasThePosesAskedForAndAllAreFeasible) {
   const FeasibleSpace space(request.robot, assumed_cell(request.robot));
   for (const PlannedStop& stop : plan.stops) {
     EXPECT_EQ(space.obstruction(stop.pose.joints), Obstruction::none) << stop.id;
-    EXPECT_EQ(space.in_passing(approach_stop(request.robot.chain, stop.pose)), Obstruction::none) << stop.id;
+    EXPECT_TRUE(is_free(space, approach_stop(space, stop.pose), stop.pose.joints)) << stop.id;
     for (const double sign : stop.pose.approach) EXPECT_EQ(std::abs(sign), 1.0);
   }
   int measured = 0;
   for (const WayStop& stop : plan.way.stops) measured += stop.pose >= 0 ? 1 : 0;
-  EXPECT_EQ(measured, 28);
+  EXPECT_EQ(measured + static_cast<int>(plan.way.blocked.size()), 28);
 }
 
 TEST(Plan, KeepsTheToolInItsBoxAndOnTheRightSideOfEveryHalfSpace) {
@@ -45,6 +46,18 @@ TEST(Plan, KeepsTheToolInItsBoxAndOnTheRightSideOfEveryHalfSpace) {
     EXPECT_TRUE(request.cell->tool_box->contains(tool_m));
     EXPECT_GE(tool_m.x(), 0.1);
   }
+}
+
+TEST(Plan, SaysWhichRadiiItAssumesWhereACellStatesNone) {
+  const auto of_radii =
+      testing::AllOf(testing::HasSubstr("states no link_radius_mm"), testing::HasSubstr("mm, the tool"));
+  PlanRequest request = request_of(8);
+  request.cell = assumed_cell(request.robot);
+  EXPECT_THAT(make_plan(request).assumptions, testing::Not(testing::Contains(of_radii)));
+  request.cell->radii_m.clear();
+  const Plan plan = make_plan(request);
+  EXPECT_THAT(plan.assumptions, testing::Contains(of_radii));
+  EXPECT_THAT(plan.warnings, testing::Not(testing::Contains(testing::HasSubstr("not checked"))));
 }
 
 TEST(Plan, KeepsTheTargetInTheInstrumentsSight) {

@@ -44,7 +44,7 @@ TEST(RefinedPoses, TellMoreStayFeasibleAndAreAFunctionOfTheArguments) {
     EXPECT_NEAR(workspace.square_m2(better.covariance), after, 1e-6 * after);
     for (const PlannedPose& pose : better.poses) {
       EXPECT_EQ(space.obstruction(pose.joints), Obstruction::none);
-      EXPECT_EQ(space.in_passing(approach_stop(robot.chain, pose)), Obstruction::none);
+      EXPECT_TRUE(is_free(space, approach_stop(space, pose), pose.joints));
     }
     const RefinedPoses again = refined(model, space, random, known, workspace.weight(), RandomStream{72, seed});
     EXPECT_EQ(again.covariance, better.covariance);

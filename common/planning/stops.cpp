@@ -1,0 +1,87 @@
+#include "planning/stops.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "planning/travel.hpp"
+#include "planning/way.hpp"
+
+namespace demecal::inline planning {
+namespace {
+
+/// Of short travel; where sockets are touched, one after another.
+std::vector<PlannedStop> in_order(const Chain& chain, const std::vector<PlannedStop>& stops) {
+  std::map<std::size_t, std::vector<std::size_t>> by_socket;
+  for (std::size_t i = 0; i < stops.size(); ++i) by_socket[stops[i].pose.socket.value_or(0)].push_back(i);
+  std::vector<PlannedStop> ordered;
+  for (const auto& [socket, members] : by_socket) {
+    std::vector<PlannedPose> poses;
+    for (const std::size_t i : members) poses.push_back(stops[i].pose);
+    for (const std::size_t i : short_order(chain, poses)) ordered.push_back(stops[members[i]]);
+  }
+  return ordered;
+}
+
+std::vector<PlannedPose> planned_poses(const std::vector<PlannedStop>& stops) {
+  std::vector<PlannedPose> poses;
+  for (const PlannedStop& stop : stops) poses.push_back(stop.pose);
+  return poses;
+}
+
+/// The stops as the way comes to them, those that it does not reach last.
+std::vector<PlannedStop> along(MeasuringWay& way, const std::vector<PlannedStop>& stops) {
+  std::vector<PlannedStop> ordered;
+  for (WayStop& stop : way.stops) {
+    if (stop.pose < 0) continue;
+    ordered.push_back(stops[static_cast<std::size_t>(stop.pose)]);
+    stop.pose = static_cast<int>(ordered.size()) - 1;
+  }
+  for (std::size_t& pose : way.blocked) {
+    ordered.push_back(stops[pose]);
+    pose = ordered.size() - 1;
+  }
+  return ordered;
+}
+
+}  // namespace
+
+int judging(const std::optional<int>& asked, int calibration) {
+  constexpr int kFewest = 10;
+  return asked ? *asked : std::max(kFewest, static_cast<int>(std::lround(0.3 * calibration)));
+}
+
+void add_stops(std::span<const PlannedPose> from, std::size_t count, PoseSet set, std::vector<PlannedStop>& stops) {
+  for (const PlannedPose& pose : from.first(std::min(count, from.size()))) stops.push_back({{}, set, pose});
+}
+
+std::size_t at_sockets(const std::optional<int>& asked, std::size_t usual, std::size_t sockets) {
+  constexpr std::size_t kFewestEach = 4;
+  return asked ? usual : std::max(usual, kFewestEach * sockets);
+}
+
+std::string poses_by_hand(const Plan& plan) {
+  std::string ids;
+  for (const std::size_t i : plan.way.blocked) ids += (ids.empty() ? "" : ", ") + plan.stops[i].id;
+  return ids;
+}
+
+void order_stops(const FeasibleSpace& space, std::vector<PlannedStop> stops, RandomStream random, Plan& plan) {
+  const Chain& chain = space.robot().chain;
+  stops = in_order(chain, stops);
+  if (plan.sockets.empty()) {
+    plan.way = way_along(space, planned_poses(stops), random);
+    stops = along(plan.way, stops);
+  }
+  for (PlannedStop& stop : stops) {
+    stop.id = "P" + std::to_string(plan.stops.size() + 1);
+    ++plan.counts[static_cast<std::size_t>(stop.set)];
+    plan.stops.push_back(std::move(stop));
+  }
+  for (std::size_t i = 1; i < plan.way.stops.size(); ++i)
+    plan.travel_rad += travel(chain, plan.way.stops[i - 1].joints, plan.way.stops[i].joints);
+}
+
+}  // namespace demecal::inline planning

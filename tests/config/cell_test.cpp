@@ -1,0 +1,45 @@
+// What a CELL.yaml may say of an arm's surroundings, and what is refused with file, line, value and rule.
+#include "config/cell_file.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "data_files/robot_file.hpp"
+#include "sample_files.hpp"
+#include "temporary_folder.hpp"
+
+namespace demecal {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Cell : public testing::Test {
+ protected:
+  CellFile load(const std::string& text) {
+    files_.write("robot.yaml", kRobotText);
+    return load_cell(files_.write("cell.yaml", "demecal_cell: 1\n" + text), load_robot(files_.path() / "robot.yaml"));
+  }
+  std::string complaint(const std::string& text) {
+    return demecal::complaint([&] { load(text); });
+  }
+
+  TemporaryFolder files_;
+};
+
+TEST_F(Cell, RefusesRadiiThatNoArmHas) {
+  EXPECT_THAT(complaint("link_radius_mm: 0.05\n"), AllOf(HasSubstr("cell.yaml:2"), HasSubstr("'0.05'"),
+                                                         HasSubstr("must be 5 mm or more"), HasSubstr("metres")));
+  EXPECT_THAT(complaint("noise_mm: 0.03\nlink_radius_mm: [60, 50, 4.9]\n"),
+              AllOf(HasSubstr("cell.yaml:3"), HasSubstr("'4.9'")));
+  EXPECT_THAT(complaint("link_radius_mm: [0, 50, 10]\n"), HasSubstr("'0'"));
+}
+
+TEST_F(Cell, TakesRadiiThatArmsHave) {
+  EXPECT_THAT(load("link_radius_mm: 5\n").cell.radii_m, testing::Each(5e-3));
+  EXPECT_THAT(load("link_radius_mm: [60, 50, 8]\n").cell.radii_m,
+              testing::ElementsAre(testing::DoubleEq(0.06), testing::DoubleEq(0.05), testing::DoubleEq(8e-3)));
+}
+
+}  // namespace
+}  // namespace demecal
