@@ -1,6 +1,9 @@
 #include "config/cell_file.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <initializer_list>
+#include <map>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -120,6 +123,36 @@ std::vector<std::optional<Interval>> read_cell_ranges(const YamlNode& node, cons
   return ranges;
 }
 
+/// An obstacle of a few mm at the very origin is one in metres.
+void require_millimetres(const YamlNode& node, const std::vector<Capsule>& obstacles) {
+  constexpr double kTiny_m = 5e-3;
+  const auto is_tiny = [](const Capsule& obstacle) {
+    return std::max({obstacle.from_m.cwiseAbs().maxCoeff(), obstacle.to_m.cwiseAbs().maxCoeff(), obstacle.radius_m}) <
+           kTiny_m;
+  };
+  const auto tiny = std::ranges::find_if(obstacles, is_tiny);
+  if (tiny == obstacles.end()) return;
+  node.list()[static_cast<std::size_t>(tiny - obstacles.begin())].fail(
+      "", "has no number of " + number_text(millimetres(kTiny_m)) + " mm or more: metres have to be written in mm");
+}
+
+std::map<Obstruction, StatedRule> stated_rules(const YamlNode& root) {
+  std::map<Obstruction, StatedRule> rules;
+  const auto state = [&](const char* key, std::initializer_list<Obstruction> refused) {
+    const YamlNode* node = root.find(key);
+    if (node == nullptr) return;
+    for (const Obstruction why : refused) rules[why] = {{node->file, node->line}, key};
+  };
+  state("joint_ranges", {Obstruction::limits});
+  state("tool_box_mm", {Obstruction::tool_box});
+  state("half_spaces", {Obstruction::half_space});
+  state("link_radius_mm", {Obstruction::itself});
+  state("obstacles", {Obstruction::obstacle});
+  state("tool_cone", {Obstruction::tool_cone});
+  state("instrument", {Obstruction::range, Obstruction::target_cone, Obstruction::sight});
+  return rules;
+}
+
 }  // namespace
 
 CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
@@ -131,8 +164,10 @@ CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
   if (const YamlNode* box = root.find("tool_box_mm")) file.cell.tool_box = read_box(*box);
   if (const YamlNode* spaces = root.find("half_spaces"))
     for (const YamlNode& space : spaces->list()) file.cell.half_spaces.push_back(read_half_space(space));
-  if (const YamlNode* obstacles = root.find("obstacles"))
+  if (const YamlNode* obstacles = root.find("obstacles")) {
     for (const YamlNode& obstacle : obstacles->list()) file.cell.obstacles.push_back(read_obstacle(obstacle));
+    require_millimetres(*obstacles, file.cell.obstacles);
+  }
   if (const YamlNode* radii = root.find("link_radius_mm")) file.cell.radii_m = read_radii(*radii, robot.chain);
   if (const YamlNode* cone = root.find("tool_cone")) file.cell.tool_cone = read_tool_cone(*cone);
   if (const YamlNode* instrument = root.find("instrument")) file.cell.instrument = read_planned_instrument(*instrument);
@@ -141,6 +176,7 @@ CellFile load_cell(const std::filesystem::path& path, const Robot& robot) {
   if (const YamlNode* sockets = root.find("sockets")) file.cell.sockets = read_socket_room(*sockets);
   if (const YamlNode* tools = root.find("tools_mm"))
     for (const YamlNode& tool : tools->children) file.tools_m[tool.name] = point_m(tool);
+  file.stated = stated_rules(root);
   return file;
 }
 

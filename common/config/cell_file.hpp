@@ -8,6 +8,7 @@
 
 #include "data/data_set.hpp"
 #include "planning/cell.hpp"
+#include "planning/plan.hpp"
 
 namespace demecal::inline config {
 
@@ -15,6 +16,7 @@ namespace demecal::inline config {
 struct CellFile {
   WorkCell cell;
   std::map<std::string, Eigen::Vector3d> tools_m;  ///< of several targets; empty: the robot's tool
+  std::map<Obstruction, StatedRule> stated;        ///< where it says what poses are refused for
 };
 
 /// The cell of an arm. Throws InputError with file, line, value and rule at the first fault.

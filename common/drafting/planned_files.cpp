@@ -89,9 +89,13 @@ std::string planned_data_set_text(const Plan& plan, const PlanRequest& request) 
   return text.str();
 }
 
-std::string planned_job_text(const PlanRequest& request) {
-  return "demecal_job: 1\ndata: DATASET.yaml\nmethod: " +
-         std::string(request.declared.joint_corrections ? "direct" : "diagnose") +
+std::string planned_job_text(const PlanRequest& request, const std::filesystem::path& measured_file) {
+  const std::string data = measured_file.empty()
+                               ? "DATASET.yaml\n"
+                               : "[" + yaml_text(measured_file.generic_string()) + ", DATASET.yaml]\n" +
+                                     "station_tools: own   # shared: where no target was mounted anew\n";
+  return "demecal_job: 1\ndata: " + data +
+         "method: " + std::string(request.declared.joint_corrections ? "direct" : "diagnose") +
          "\nseed: " + std::to_string(request.seed) + "\nmodel: {declared: " + yaml_list(request.declared.words()) +
          "}\n";
 }

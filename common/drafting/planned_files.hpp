@@ -16,8 +16,8 @@ namespace demecal::inline drafting {
 std::string planned_poses_csv(const Plan& plan, const PlanRequest& request);
 /// The DATASET.yaml for it, once it has columns for what was measured.
 std::string planned_data_set_text(const Plan& plan, const PlanRequest& request);
-/// The JOB.yaml for that.
-std::string planned_job_text(const PlanRequest& request);
+/// The JOB.yaml for that; `measured_file`: the data set that the plan goes on from, as seen from its folder, or empty.
+std::string planned_job_text(const PlanRequest& request, const std::filesystem::path& measured_file = {});
 
 /// The CSV of `stops`: their ids "N1" onwards, the commanded joints in the names and units of the columns of the data
 /// set file, the side each joint is to be approached from, and the payload where one was recorded. Angles and lengths

@@ -82,6 +82,20 @@ void say_ranges(const FeasibleSpace& space, Plan& plan) {
         joints + "); `joint_ranges` of a cell file says otherwise.");
 }
 
+void say_limits(const PlanRequest& request, Plan& plan) {
+  constexpr double kNarrow_rad = radians(7.0);  // 2 pi, and some more
+  bool turns = false;
+  for (const Joint& joint : request.robot.chain.joints) {
+    if (!is_revolute(joint)) continue;
+    if (std::max(std::abs(joint.lower), std::abs(joint.upper)) >= kNarrow_rad) return;
+    turns = true;
+  }
+  if (turns)
+    plan.warnings.push_back(
+        "All joints of " + request.robot.name +
+        " that turn have limits within 7 deg: if these are radians, state `limits_deg` in degrees.");
+}
+
 void say_tool(const PlanRequest& request, Plan& plan) {
   constexpr double kOnAxis_m = 5e-3;
   const Chain& chain = request.robot.chain;
@@ -176,8 +190,13 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
                                      : "a laser tracker, and the repeatability in the robot file"));
   say_surroundings(request, space, plan);
   if (request.places) say_sockets(request, plan);
+  if (request.measured)
+    plan.assumptions.push_back(
+        "The plan goes on from " + request.measured->name +
+        ": predicted errors count its poses too, and take the instrument and the targets to be where they were then.");
   say_ranges(space, plan);
   say_tool(request, plan);
+  say_limits(request, plan);
   plan.assumptions.emplace_back(
       "Predicted errors are those of the numbers declared: what the arm does besides comes on top, and is what the "
       "validation poses will show.");

@@ -106,16 +106,20 @@ class Planning {
     plan_.refused = drawn.refused;
     plan_.refused[0] = 0;
     candidates_ = std::move(drawn.poses);
-    const auto judging_poses =
-        static_cast<std::size_t>(judging(request_.validation, most_) + judging(request_.accept, most_));
+    const auto judging_poses = static_cast<std::size_t>(judging(request_, PoseSet::validation, most_) +
+                                                        judging(request_, PoseSet::accept, most_));
     places_ = draw_poses(space_, std::max(kWorkspacePlaces, judging_poses), stream(2)).poses;
     const std::size_t needed = request_.accuracy_m ? static_cast<std::size_t>(fewest_poses(model_)) : most;
     if (candidates_.size() >= std::max<std::size_t>(needed, 4) && places_.size() >= judging_poses) return;
-    const auto worst = std::ranges::max_element(plan_.refused) - plan_.refused.begin();
-    throw InputError({request_.robot.name, 0}, std::to_string(plan_.feasible),
-                     fmt::format("of {} random poses are feasible, too few to choose {} from; most were refused since: "
-                                 "{}. Widen the cell, or ask for fewer poses",
-                                 plan_.drawn, needed, to_string(static_cast<Obstruction>(worst))));
+    const auto worst = static_cast<Obstruction>(std::ranges::max_element(plan_.refused) - plan_.refused.begin());
+    const bool stated = request_.stated.contains(worst);
+    const InputError::Where where =
+        stated ? request_.stated.at(worst).where : InputError::Where{request_.robot.name, 0};
+    throw InputError(
+        where, std::to_string(plan_.feasible),
+        fmt::format("of {} random poses are feasible, too few to choose {} from; most were refused since: "
+                    "{}. Widen {}, or ask for fewer poses",
+                    plan_.drawn, needed, to_string(worst), stated ? request_.stated.at(worst).key : "the cell"));
   }
 
   void draw_sockets() {
@@ -225,8 +229,8 @@ class Planning {
     std::vector<PlannedStop> stops;
     for (const PlannedPose& pose : chosen) stops.push_back({{}, PoseSet::calibration, pose});
     const int calibration = static_cast<int>(stops.size());
-    const auto validation = static_cast<std::size_t>(judging(request_.validation, calibration));
-    const auto accept = static_cast<std::size_t>(judging(request_.accept, calibration));
+    const auto validation = static_cast<std::size_t>(judging(request_, PoseSet::validation, calibration));
+    const auto accept = static_cast<std::size_t>(judging(request_, PoseSet::accept, calibration));
     if (request_.places) {
       const std::size_t fitted = model_.model().sockets.size();
       add_stops(validation_, at_sockets(request_.validation, validation, fitted), PoseSet::validation, stops);
@@ -236,7 +240,7 @@ class Planning {
       add_stops(places, validation, PoseSet::validation, stops);
       add_stops(places.subspan(validation), accept, PoseSet::accept, stops);
     }
-    order_stops(space_, std::move(stops), stream(3), plan_);
+    order_stops(space_, request_.measured, std::move(stops), stream(3), plan_);
   }
 
   const PlanRequest& request_;

@@ -11,6 +11,7 @@
 
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
+#include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "parameters/declared_model.hpp"
 #include "planning/cell.hpp"
@@ -20,22 +21,30 @@
 
 namespace demecal::inline planning {
 
+/// Where a rule of the cell is stated.
+struct StatedRule {
+  InputError::Where where;
+  std::string key;
+};
+
 struct PlanRequest {
   Robot robot;
   std::map<std::string, Eigen::Vector3d> tools_m{};  ///< of several targets; empty: the robot's tool
   std::optional<WorkCell> cell{};                    ///< none: assumed_cell()
+  std::map<Obstruction, StatedRule> stated{};        ///< by what a pose is refused for; as far as a file states it
   DeclaredModel declared{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
   std::vector<std::string> detect{};   ///< words of the catalogue: effects to be told apart beside what is declared
   std::optional<int> poses{};          ///< for calibration
   std::optional<double> accuracy_m{};  ///< in place of `poses`: the predicted rms error to reach
-  std::optional<int> validation{}, accept{};  ///< none: 3 for every 10 that calibrate, 10 at least
+  std::optional<int> validation{}, accept{};  ///< none: 3 for every 10 that calibrate, 10
+                                              ///< at least, those measured before included
   std::optional<DataSet> measured{};          ///< what was measured before: the plan goes on from there
   std::optional<int> places{};                ///< of sockets that the tool touches in place of an instrument
   std::uint64_t seed = 1;
 };
 
 struct PlannedStop {
-  std::string id;  ///< "P1" onwards, in the order of measuring
+  std::string id;  ///< "P1" onwards in the order of measuring; behind the highest number measured before
   PoseSet set = PoseSet::calibration;
   PlannedPose pose;
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -46,11 +47,38 @@ std::vector<PlannedStop> along(MeasuringWay& way, const std::vector<PlannedStop>
   return ordered;
 }
 
+/// Poses of a set that were measured, repeats counted once.
+int measured_before(const std::optional<DataSet>& measured, PoseSet set) {
+  std::set<std::string> ids;
+  if (measured)
+    for (const MeasuredPose& pose : measured->poses)
+      if (pose.set == set) ids.insert(pose.pose_id);
+  return static_cast<int>(ids.size());
+}
+
+/// The highest number that the ids of measured poses end in; 0 without any.
+std::size_t highest_number(const std::optional<DataSet>& measured) {
+  constexpr std::size_t kMostDigits = 9;
+  std::size_t highest = 0;
+  if (!measured) return highest;
+  for (const MeasuredPose& pose : measured->poses) {
+    const std::size_t begin = pose.pose_id.find_last_not_of("0123456789") + 1;  // 0 where it is all digits
+    const std::string digits = pose.pose_id.substr(begin);
+    if (!digits.empty() && digits.size() <= kMostDigits) highest = std::max<std::size_t>(highest, std::stoul(digits));
+  }
+  return highest;
+}
+
 }  // namespace
 
-int judging(const std::optional<int>& asked, int calibration) {
+int judging(const PlanRequest& request, PoseSet set, int calibration) {
   constexpr int kFewest = 10;
-  return asked ? *asked : std::max(kFewest, static_cast<int>(std::lround(0.3 * calibration)));
+  constexpr double kOfCalibration = 0.3;
+  const std::optional<int>& asked = set == PoseSet::validation ? request.validation : request.accept;
+  if (asked) return *asked;
+  const int all = calibration + measured_before(request.measured, PoseSet::calibration);
+  const int usual = std::max(kFewest, static_cast<int>(std::lround(kOfCalibration * all)));
+  return std::max(0, usual - measured_before(request.measured, set));
 }
 
 void add_stops(std::span<const PlannedPose> from, std::size_t count, PoseSet set, std::vector<PlannedStop>& stops) {
@@ -68,15 +96,17 @@ std::string poses_by_hand(const Plan& plan) {
   return ids;
 }
 
-void order_stops(const FeasibleSpace& space, std::vector<PlannedStop> stops, RandomStream random, Plan& plan) {
+void order_stops(const FeasibleSpace& space, const std::optional<DataSet>& measured, std::vector<PlannedStop> stops,
+                 RandomStream random, Plan& plan) {
   const Chain& chain = space.robot().chain;
   stops = in_order(chain, stops);
   if (plan.sockets.empty()) {
     plan.way = way_along(space, planned_poses(stops), random);
     stops = along(plan.way, stops);
   }
+  std::size_t number = highest_number(measured);
   for (PlannedStop& stop : stops) {
-    stop.id = "P" + std::to_string(plan.stops.size() + 1);
+    stop.id = "P" + std::to_string(++number);
     ++plan.counts[static_cast<std::size_t>(stop.set)];
     plan.stops.push_back(std::move(stop));
   }

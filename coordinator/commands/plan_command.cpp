@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,7 +18,9 @@
 #include "drafting/planned_files.hpp"
 #include "drafting/planned_programs.hpp"
 #include "effects/catalogue.hpp"
+#include "errors/input_error.hpp"
 #include "html/page.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
 #include "parameters/declared_model.hpp"
 #include "parsed_programs/language.hpp"
@@ -67,6 +70,7 @@ PlanRequest plan_request(const PlanCommand& command) {
     CellFile file = load_cell(command.cell_file, request.robot);
     request.cell = std::move(file.cell);
     request.tools_m = std::move(file.tools_m);
+    request.stated = std::move(file.stated);
   }
   if (request.places) take_ball(command, request);
   if (request.places && !command.after.empty())
@@ -74,16 +78,25 @@ PlanRequest plan_request(const PlanCommand& command) {
   if (!command.after.empty()) {
     request.measured = load_data_set(command.after);
     require_positions(*request.measured, "plan --after");
-    if (request.measured->robot.chain.size() != request.robot.chain.size())
-      throw InputError({command.after, 0}, request.measured->robot.name, "is not of the arm that is planned for");
+    const std::string difference = first_difference(request.robot.chain, request.measured->robot.chain);
+    if (!difference.empty())
+      throw InputError({command.after, 0}, request.measured->robot.name,
+                       "is not the arm that is planned for (" + request.robot.name + "): " + difference +
+                           "; plan for the arm that was measured");
   }
   return request;
 }
 
-std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request) {
+/// The data set that the plan goes on from, as JOB.yaml names it; empty where there is none.
+std::filesystem::path measured_file(const PlanCommand& command) {
+  if (command.after.empty()) return {};
+  return std::filesystem::proximate(std::filesystem::absolute(command.after), std::filesystem::absolute(command.out));
+}
+
+std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request, const PlanCommand& command) {
   std::vector<NamedText> files{{"poses.csv", planned_poses_csv(plan, request)},
                                {"DATASET.yaml", planned_data_set_text(plan, request)},
-                               {"JOB.yaml", planned_job_text(request)},
+                               {"JOB.yaml", planned_job_text(request, measured_file(command))},
                                {"robot.yaml", yaml_comment("the robot that was planned for, nominal") +
                                                   "demecal_robot: 1\n" + robot_text(request.robot)},
                                {"plan.html", plan_html(plan, request)}};
@@ -99,7 +112,7 @@ ExitCode run_plan(const PlanCommand& command) {
     throw ArgumentError("--poses and --accuracy exclude each other: state one of them");
   const PlanRequest request = plan_request(command);
   const Plan plan = make_plan(request);
-  std::vector<NamedText> files = files_of(plan, request);
+  std::vector<NamedText> files = files_of(plan, request, command);
   std::vector<std::string> names;
   for (const NamedText& file : files) names.push_back(file.name);
   names.emplace_back("plan.json");
@@ -153,7 +166,9 @@ void add_plan(CLI::App& app, ExitCode& exit_code) {
                    "accept poses")
       ->check(CLI::Range(1, kMostPlaces));
   command->add_option("--after", request->after, "DATASET.yaml of a measurement that the plan goes on from");
-  command->add_option("--validation", request->validation, "poses for validation (default: 3 for 10, 10 at least)")
+  command
+      ->add_option("--validation", request->validation,
+                   "poses for validation (default: 3 for 10, 10 at least, those of --after included)")
       ->check(CLI::Range(0, kMost));
   command->add_option("--accept", request->accept, "poses for acceptance (default: the same)")
       ->check(CLI::Range(0, kMost));

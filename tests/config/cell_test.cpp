@@ -41,5 +41,22 @@ TEST_F(Cell, TakesRadiiThatArmsHave) {
               testing::ElementsAre(testing::DoubleEq(0.06), testing::DoubleEq(0.05), testing::DoubleEq(8e-3)));
 }
 
+TEST_F(Cell, RefusesObstaclesInMetres) {
+  const std::string pole = "  - {from_mm: [0.45, 0, 0], to_mm: [0.45, 0, 1.2], radius_mm: 0.1}\n";
+  const std::string thin = "  - {from_mm: [450, 0, 0], to_mm: [450, 0, 1200], radius_mm: 0}\n";
+  EXPECT_THAT(complaint("obstacles:\n" + thin + pole),
+              AllOf(HasSubstr("cell.yaml:4"), HasSubstr("obstacles[2]"), HasSubstr("metres")));
+  EXPECT_EQ(complaint("obstacles:\n" + thin), "");
+}
+
+TEST_F(Cell, KnowsWhereItsRulesStand) {
+  const CellFile file = load("noise_mm: 0.03\ntool_box_mm: {lower: [0, 0, 0], upper: [1, 1, 1]}\n");
+  ASSERT_TRUE(file.stated.contains(Obstruction::tool_box));
+  EXPECT_EQ(file.stated.at(Obstruction::tool_box).where.line, 3u);
+  EXPECT_THAT(file.stated.at(Obstruction::tool_box).where.file, HasSubstr("cell.yaml"));
+  EXPECT_EQ(file.stated.at(Obstruction::tool_box).key, "tool_box_mm");
+  EXPECT_FALSE(file.stated.contains(Obstruction::itself));
+}
+
 }  // namespace
 }  // namespace demecal

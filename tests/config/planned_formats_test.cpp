@@ -108,6 +108,17 @@ TEST(PlannedFormats, FilesOfAPlanAreReadBackOnceWhatIsMeasuredIsThere) {
   EXPECT_EQ(load_job(folder.path() / "JOB.yaml").declared, request.declared);
 }
 
+TEST(PlannedFormats, JobOfAPlanThatGoesOnFitsBothDataSets) {
+  const TemporaryFolder folder;
+  folder.write("JOB.yaml", planned_job_text(small_request(), "../first: half/DATASET.yaml"));
+  folder.write("DATASET.yaml", "");
+  const Job job = load_job(folder.path() / "JOB.yaml");
+  ASSERT_EQ(job.data_files.size(), 2u);
+  EXPECT_EQ(std::filesystem::path(job.data_files[0]).lexically_normal(),
+            (folder.path() / "../first: half/DATASET.yaml").lexically_normal());
+  EXPECT_EQ(std::filesystem::path(job.data_files[1]).filename(), "DATASET.yaml");
+}
+
 TEST(PlannedFormats, FilesOfAPlanOfSocketsAreReadAsTheyAre) {
   const PlanRequest request = small_request_of_sockets();
   const Plan plan = make_plan(request);

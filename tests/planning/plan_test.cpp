@@ -113,11 +113,68 @@ TEST(Plan, SaysWhatItsPosesCannotTell) {
   EXPECT_FALSE(last->identifiable);
 }
 
+/// Measured as planned, with repeats of its first pose.
+DataSet measured_as(const Plan& plan, const Robot& robot) {
+  DataSet data;
+  data.robot = robot;
+  data.name = "before";
+  for (const PlannedStop& stop : plan.stops) {
+    MeasuredPose pose;
+    pose.joints = stop.pose.joints;
+    pose.position_m = tool_position(robot.chain, stop.pose.joints);
+    pose.set = stop.set;
+    pose.pose_id = stop.id;
+    data.poses.push_back(pose);
+  }
+  data.poses.push_back(data.poses.front());
+  return data;
+}
+
+TEST(Plan, GoesOnFromWhatWasMeasured) {
+  PlanRequest request = request_of(14);
+  request.validation = 7;
+  request.accept = 12;
+  const Plan before = make_plan(request);
+  request.measured = measured_as(before, request.robot);
+  request.validation.reset();
+  request.accept.reset();
+  request.poses = 26;
+  const Plan after = make_plan(request);
+  // 3 for every 10 of 40 that calibrate.
+  EXPECT_THAT(after.counts, testing::ElementsAre(26u, 5u, 0u));
+  for (std::size_t i = 0; i < after.stops.size(); ++i)
+    EXPECT_EQ(after.stops[i].id, "P" + std::to_string(before.stops.size() + 1 + i));
+  EXPECT_THAT(after.assumptions, testing::Contains(testing::HasSubstr("goes on from before")));
+  request.accept = 3;
+  EXPECT_EQ(make_plan(request).counts[2], 3u);
+}
+
 TEST(Plan, RefusesACellWithoutRoom) {
   PlanRequest request = request_of(12);
   request.cell = assumed_cell(request.robot);
   request.cell->tool_box = Eigen::AlignedBox3d(Eigen::Vector3d(5, 5, 5), Eigen::Vector3d(6, 6, 6));
   EXPECT_THROW(make_plan(request), InputError);
+  request.stated[Obstruction::tool_box] = {{"cell.yaml", 7}, "tool_box_mm"};
+  try {
+    make_plan(request);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(),
+                testing::AllOf(testing::HasSubstr("cell.yaml:7"), testing::HasSubstr("outside the tool's box"),
+                               testing::HasSubstr("Widen tool_box_mm")));
+  }
+}
+
+/// What is written in radians is within 2 pi.
+TEST(Plan, AsksWhetherLimitsAreInRadians) {
+  const auto asked = testing::Contains(testing::AllOf(testing::HasSubstr("limits"), testing::HasSubstr("radians")));
+  PlanRequest request = request_of(8);
+  EXPECT_THAT(make_plan(request).warnings, testing::Not(asked));
+  for (Joint& joint : request.robot.chain.joints) {
+    joint.lower *= 0.0174;
+    joint.upper *= 0.0174;
+  }
+  EXPECT_THAT(make_plan(request).warnings, asked);
 }
 
 /// The prediction is of the error that a fit to simulated measurements leaves, over many simulated arms.
