@@ -184,6 +184,10 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                         {},
                         uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
   evaluation.touches = has_contacts(data);
+  if (evaluation.touches && !has_instrument(data)) {
+    evaluation.uncertainty.reset();
+    evaluation.workspace_error = workspace_entry(model, false);
+  }
   evaluation.length_errors = length_error_entries(data, robot, nullptr);
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
   fmt::print(stderr, "{}", to_terminal(evaluation.data_check, ShownFindings::all));
