@@ -107,7 +107,7 @@ ExitCode run_certify(const CertifyRequest& request) {
   if (!request.force && are_computed(checked)) return ExitCode::contradiction;
   if (!request.force) require_alike_arm(model, data);
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
-  check_fitted(data, model.robot, checked.check);
+  check_fitted(data, model.robot, model.posterior, model.interval, checked.check);
   const Certificate certificate =
       make_certificate(model, data,
                        {.fields = merged(load_certificate(request.data_file), model.certificate),

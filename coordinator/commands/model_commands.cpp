@@ -176,7 +176,7 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                                    : seen_from_stations(model.robot, model.stations, data);
   require_same_arm(robot, data);
   if (!request.force) require_alike_arm(model, data);
-  check_fitted(data, robot, checked.check);
+  check_fitted(data, robot, model.posterior, model.interval, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),
                         pose_errors(data, model, robot, nullptr),
                         data_check_entry(checked.check),
