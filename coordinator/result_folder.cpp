@@ -163,7 +163,7 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
   written.joints = result.model.joints;  // what is for people alone is not read back
   written.estimates = result.model.estimates;
   DataCheck check = result.check;
-  check_fitted(data, written.robot, check);
+  check_fitted(data, written.robot, written.posterior, written.interval, check);
   const Report report = make_report({.data = data,
                                      .model = written,
                                      .before = added_any(result.loop) ? result.before : written.robot,

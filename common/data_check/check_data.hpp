@@ -2,8 +2,11 @@
 // what this arm did, and if not, what fits.
 #pragma once
 
+#include <optional>
+
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline data_check {
@@ -18,6 +21,11 @@ DataCheck check_data(const DataSet& data);
 /// Adds the single poses (of all sets) that do not fit `robot`, a model of the data, to those that are named already.
 /// Where all poses fit `robot` in another frame only, as those of a later measurement do, it says that and no more.
 void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& check);
+
+/// The same, and known lengths between contacts that a model that sure of itself has otherwise. Models of old versions
+/// do not say how sure they are.
+void check_fitted(const DataSet& data, const CorrectedRobot& robot, const std::optional<Posterior>& posterior,
+                  const std::optional<PredictionInterval>& interval, DataCheck& check);
 
 /// Throws InputError where a joint stands far outside its limits in a pose that no finding names.
 void require_joint_limits(const DataSet& data, const DataCheck& check);

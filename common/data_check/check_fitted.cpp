@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
@@ -104,6 +105,18 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
   const double deviation_m = std::max(median(errors) / normal_length_quantile(3, 0.5), 1e-6);
   const PointPrediction predict{point, [&](const TrialRow& row) { return error(row) / deviation_m; }};
   for (Finding& finding : find_single_poses(data, rows, predict, least_m)) check.findings.push_back(std::move(finding));
+}
+
+void check_fitted(const DataSet& data, const CorrectedRobot& robot, const std::optional<Posterior>& posterior,
+                  const std::optional<PredictionInterval>& interval, DataCheck& check) {
+  check_fitted(data, robot, check);
+  if (!posterior || !interval || data.contacts.distances.empty()) return;
+  std::set<std::string> named;
+  for (const Finding& finding : check.findings) named.insert(finding.poses.begin(), finding.poses.end());
+  DataSet rest = data;  // poses that are named already may hold a contact elsewhere
+  std::erase_if(rest.poses, [&](const MeasuredPose& pose) { return named.contains(pose.pose_id); });
+  for (Finding& finding : find_disagreeing_lengths(rest, robot, *posterior, *interval))
+    check.findings.push_back(std::move(finding));
 }
 
 }  // namespace demecal::inline data_check

@@ -13,6 +13,9 @@
 #include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/measurement.hpp"
+#include "prediction/only_places.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {
@@ -57,6 +60,41 @@ std::optional<Finding> find_computed_positions(const Trial& trial, const TrialFi
           "instrument: computed ones say nothing about the arm.",
           std::max(millimetres(placed.median_m), 1e-4),
           by_rounding ? ", the rounding of the file" : ", as no arm does")};
+}
+
+std::optional<Finding> find_computed_contacts(const DataSet& data, const CorrectedRobot& stiff) {
+  constexpr std::size_t kFewestPosesTouching = 12;  ///< besides those that only place a contact
+  constexpr double kComputedTouch = 2e-5;           ///< of the reach, to which plans reach contacts and no arm does
+  std::vector<JointVector> joints;
+  std::vector<std::size_t> told;
+  double reach_m = 0.1;
+  for (const auto& [group, members] : contact_groups(data)) {
+    if (only_places(data.contacts.form_of(group.contact), members.size())) continue;
+    told.insert(told.end(), members.begin(), members.end());
+  }
+  for (const std::size_t pose : told) {
+    joints.push_back(data.poses[pose].joints);
+    reach_m = std::max(reach_m, touch_of(stiff, data.poses[pose]).point_m.norm());
+  }
+  if (told.size() < kFewestPosesTouching) return std::nullopt;
+  const JointSteps steps = joint_steps(stiff.chain, joints);
+  double squares_m2 = 0.0;
+  for (const std::size_t pose : told)
+    squares_m2 +=
+        rounding_m2(stiff.chain, data.poses[pose].joints, stiff.tool(data.poses[pose].target).translation(), steps);
+  const double rounded_m = std::sqrt(squares_m2 / static_cast<double>(told.size()));
+  const double left_m = median(tool_errors_m(stiff, data, told));
+  const bool by_rounding = rounded_m < kMostRoundingShare * reach_m && left_m < kOverRounding * rounded_m;
+  if (!by_rounding && left_m > kComputedTouch * reach_m) return std::nullopt;
+  return Finding{
+      .kind = FindingKind::computed_positions,
+      .as_given_mm = millimetres(left_m),
+      .sentence = fmt::format(
+          "With its tool alone fitted the nominal arm holds half of the poses to within {:.2g} mm of what they "
+          "touch{}: "
+          "these are joint values that a plan (or a simulation) computed, not those of an arm that touched something. "
+          "Replace them by what the controller shows once the tool is seated: computed ones say nothing about the arm.",
+          std::max(millimetres(left_m), 1e-4), by_rounding ? ", the rounding of the file" : ", as no arm does")};
 }
 
 }  // namespace demecal::inline data_check

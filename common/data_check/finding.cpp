@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 29> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 31> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -40,7 +40,9 @@ constexpr std::array<KindRow, 29> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::shared_poses, "shared_poses", false},
                                           {FindingKind::typing_error, "typing_error", false},
                                           {FindingKind::wrong_contact, "wrong_contact", false},
+                                          {FindingKind::contact_moved, "contact_moved", false},
                                           {FindingKind::wrong_length, "wrong_length", true},
+                                          {FindingKind::disagreeing_length, "disagreeing_length", false},
                                           {FindingKind::wrong_orientation, "wrong_orientation", false},
                                           {FindingKind::outlier, "outlier", false},
                                           {FindingKind::many_outliers, "many_outliers", true},

@@ -1,8 +1,11 @@
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +15,9 @@
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/contact_place.hpp"
 #include "prediction/measurement.hpp"
+#include "random/distributions.hpp"
 
 namespace demecal::inline data_check {
 namespace {
@@ -28,9 +33,10 @@ struct LengthUnit {
 constexpr std::array<LengthUnit, 5> kLengthUnits{
     {{1e-3, "metres"}, {0.1, "centimetres"}, {1 / 25.4, "inches"}, {1 / 304.8, "feet"}, {1e3, "micrometres"}}};
 
-/// A known length, and what the arm makes of it: the mean over the sets that touch both ends.
+/// A known length, and what the arm makes of it in one set that touches both its ends.
 struct ComparedLength {
   const KnownDistance* known = nullptr;
+  PoseSet set = PoseSet::calibration;
   double by_arm_m = 0.0;
 
   bool is_wrong(double apart_m) const {
@@ -46,19 +52,57 @@ struct ComparedLength {
   }
 };
 
-std::vector<ComparedLength> compared_lengths(const DataSet& data, const CorrectedRobot& robot) {
+using MedianPlaces = std::map<ContactGroup, Eigen::Vector3d>;
+
+/// Where the poses of every contact and set have it; of points the median along each axis, which a few poses at another
+/// contact cannot move.
+MedianPlaces median_places(const DataSet& data, const CorrectedRobot& robot) {
+  MedianPlaces places;
+  for (const auto& [group, members] : contact_groups(data)) {
+    std::vector<Touch> touches;
+    for (const std::size_t pose : members) touches.push_back(touch_of(robot, data.poses[pose]));
+    const ContactForm form = data.contacts.form_of(group.contact);
+    Eigen::Vector3d place_m = contact_place(form, touches).frame.translation();
+    for (int axis = 0; form.kind == ContactKind::point && axis < 3; ++axis) {
+      std::vector<double> along;
+      for (const Touch& touch : touches) along.push_back(touch.point_m[axis]);
+      place_m[axis] = median(along);
+    }
+    places[group] = place_m;
+  }
+  return places;
+}
+
+/// Those of one length in every set.
+std::vector<ComparedLength> compared(const KnownDistance& known, const MedianPlaces& places) {
   std::vector<ComparedLength> all;
-  std::map<const KnownDistance*, std::vector<double>> lengths;
-  for (const LengthError& one : length_errors(robot, data))
-    lengths[one.known].push_back(one.known->length_m + one.error_m);
-  for (const KnownDistance& known : data.contacts.distances) {
-    const auto found = lengths.find(&known);
-    if (found == lengths.end()) continue;
-    double sum_m = 0.0;
-    for (const double length_m : found->second) sum_m += length_m;
-    all.push_back({&known, sum_m / static_cast<double>(found->second.size())});
+  for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
+    const auto first = places.find({known.first, set}), second = places.find({known.second, set});
+    if (first != places.end() && second != places.end())
+      all.push_back({&known, set, (first->second - second->second).norm()});
   }
   return all;
+}
+
+/// Two contacts of a set of which each stands where the other does in another set, one of them `contact`.
+struct ExchangedNames {
+  std::string first, second;
+};
+std::optional<ExchangedNames> exchange_about(const std::string& contact, PoseSet set, const MedianPlaces& places) {
+  constexpr double kNearShare = 0.3;  ///< of the distance between the two
+  for (const PoseSet other : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
+    const auto own = places.find({contact, set}), elsewhere = places.find({contact, other});
+    if (other == set || own == places.end() || elsewhere == places.end()) continue;
+    for (const auto& [group, place_m] : places) {
+      if (group.set != set || group.contact == contact) continue;
+      const auto there = places.find({group.contact, other});
+      if (there == places.end()) continue;
+      const double near_m = kNearShare * (there->second - elsewhere->second).norm();
+      if ((own->second - there->second).norm() < near_m && (place_m - elsewhere->second).norm() < near_m)
+        return ExchangedNames{std::min(contact, group.contact), std::max(contact, group.contact)};
+    }
+  }
+  return std::nullopt;
 }
 
 std::string in_words(const ComparedLength& one) {
@@ -66,26 +110,53 @@ std::string in_words(const ComparedLength& one) {
                      one.known->second, millimetres(one.known->length_m), millimetres(one.by_arm_m));
 }
 
+/// A length that no set of poses has as it is given: `one` is one of them.
+Finding wrong_everywhere(const ComparedLength& one) {
+  const LengthUnit* const unit = one.unit();
+  return {.kind = unit == nullptr ? FindingKind::wrong_length : FindingKind::unit,
+          .as_given_mm = millimetres(std::abs(one.by_arm_m - one.known->length_m)),
+          .sentence =
+              in_words(one) +
+              (unit == nullptr
+                   ? fmt::format(" ({:.3g} times as far), which no error of this arm explains: correct the length or "
+                                 "the names under contacts.distances, or the robot's lengths.",
+                                 one.by_arm_m / one.known->length_m)
+                   : fmt::format(": the length fits if it is in {} where millimetres are stated. Give "
+                                 "contacts.distances in mm.",
+                                 unit->name))};
+}
+
+/// A length that other sets have as it is given.
+Finding wrong_in_one_set(const ComparedLength& one, const DataSet& data, const MedianPlaces& places) {
+  std::optional<ExchangedNames> found = exchange_about(one.known->first, one.set, places);
+  if (!found) found = exchange_about(one.known->second, one.set, places);
+  Finding finding{.kind = FindingKind::wrong_length,
+                  .as_given_mm = millimetres(std::abs(one.by_arm_m - one.known->length_m)),
+                  .sentence = fmt::format("{} of the {} poses, while other sets have it as given: ", in_words(one),
+                                          to_string(one.set))};
+  finding.sentence += found ? fmt::format("there '{}' and '{}' are exchanged. Correct the names of that set.",
+                                          found->first, found->second)
+                            : fmt::format("there '{}' or '{}' names another contact. Correct the names of that set.",
+                                          one.known->first, one.known->second);
+  const ExchangedNames names = found.value_or(ExchangedNames{one.known->first, one.known->second});
+  for (const MeasuredPose& pose : data.poses)
+    if (pose.set == one.set && (pose.contact == names.first || pose.contact == names.second))
+      finding.poses.push_back(pose.pose_id);
+  return finding;
+}
+
 }  // namespace
 
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m) {
+  const MedianPlaces places = median_places(data, robot);
   std::vector<Finding> found;
-  for (const ComparedLength& one : compared_lengths(data, robot)) {
-    if (!one.is_wrong(apart_m)) continue;
-    const LengthUnit* const unit = one.unit();
-    found.push_back({.kind = unit == nullptr ? FindingKind::wrong_length : FindingKind::unit,
-                     .as_given_mm = millimetres(std::abs(one.by_arm_m - one.known->length_m)),
-                     .sentence = in_words(one)});
-    found.back().sentence +=
-        unit == nullptr
-            ? fmt::format(
-                  " ({:.3g} times as far), which no error of this arm explains: correct the length or the names "
-                  "under contacts.distances, or the robot's lengths.",
-                  one.by_arm_m / one.known->length_m)
-            : fmt::format(
-                  ": the length fits if it is in {} where millimetres are stated. Give contacts.distances in "
-                  "mm.",
-                  unit->name);
+  for (const KnownDistance& known : data.contacts.distances) {
+    const std::vector<ComparedLength> all = compared(known, places);
+    const auto is_wrong = [apart_m](const ComparedLength& one) { return one.is_wrong(apart_m); };
+    const auto first = std::ranges::find_if(all, is_wrong);
+    if (first == all.end()) continue;
+    const bool everywhere = std::ranges::all_of(all, is_wrong);
+    found.push_back(everywhere ? wrong_everywhere(*first) : wrong_in_one_set(*first, data, places));
   }
   return found;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/trial_fit.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline data_check {
@@ -101,12 +103,35 @@ std::vector<Finding> take_out_copies(DataSet& data);
 /// contradicted, else single poses are named, of all sets.
 std::vector<Finding> check_contacts(const DataSet& data);
 
-/// Known lengths that are not those of this arm's contacts by far, in another unit or by another factor. `robot`
-/// predicts the tool, by lengths of its own, and leaves poses of one contact `apart_m` from their middle.
+/// Known lengths that are not those of this arm's contacts by far, in another unit or by another factor, or in one set
+/// alone, whose contacts are then exchanged. `robot` predicts the tool, by lengths of its own, and leaves poses of one
+/// contact `apart_m` from their middle.
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m);
 
-/// Poses that the contact they name does not fit: those that fit another one, as wrong_contact, others as outlier.
-/// `robot` predicts the tool.
+/// Contacts that moved, and poses that the contact they name does not fit, before it moved or after: those that fit
+/// another one, or that alone name it, as wrong_contact, others as outlier. `robot` predicts the tool.
 std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRobot& robot);
+
+/// A contact whose poses of one set stand in one place up to some row and in another from there on: a ball or socket
+/// that slipped.
+struct MovedContact {
+  ContactGroup group;
+  std::vector<std::size_t> from_there;  ///< poses of the data set
+  double shift_m = 0.0;
+};
+
+/// `robot` predicts the tool.
+std::vector<MovedContact> find_moved_contacts(const DataSet& data, const CorrectedRobot& robot);
+
+Finding of_moved_contact(const DataSet& data, const MovedContact& moved);
+
+/// Whether the nominal arm, its tool fitted (`stiff`), holds all poses of its contacts together to within the rounding
+/// of the joints, or two hundred thousandths of its reach: then these joints were computed, and touched nothing.
+std::optional<Finding> find_computed_contacts(const DataSet& data, const CorrectedRobot& stiff);
+
+/// Known lengths that a model, fitted to them or not, has otherwise by more than four times what their own uncertainty,
+/// its posterior, and noise and model error of its interval leave open.
+std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const CorrectedRobot& robot,
+                                              const Posterior& posterior, const PredictionInterval& interval);
 
 }  // namespace demecal::inline data_check

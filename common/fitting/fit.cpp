@@ -50,6 +50,15 @@ Fit too_few(const CorrectedRobot& start, std::size_t poses, int rows, int parame
   return fit;
 }
 
+/// Takes back out of a pose's rows at the reference that contacts count over the model's size: a direction that only
+/// enlarges the arm shows, if by its residuals alone, and is left to prior and known lengths instead of being held.
+void leave_size_out(const MeasuredPose& pose, const LeastSquares& problem, ScaledRows& rows) {
+  if (pose.contact.empty() || pose.contact_length_m > 0.0 || problem.scales[kPosition] <= 0) return;
+  const MeasurementRows count = rows_of(pose);
+  rows.jacobian.middleRows(count.position, count.contact) +=
+      rows.residual.segment(count.position, count.contact) * problem.space.size_slopes().transpose();
+}
+
 /// The effects of all parameters at the reference.
 ScaledJacobian jacobian_at_reference(const LeastSquares& problem) {
   TriangularFactor factor(problem.space.size());
@@ -57,6 +66,7 @@ ScaledJacobian jacobian_at_reference(const LeastSquares& problem) {
   ScaledRows rows;
   for (const Observation& observation : problem.observations) {
     scaled_rows(problem.data, problem.space, point, observation, problem.scales, rows);
+    leave_size_out(problem.data.poses[observation.pose], problem, rows);
     factor.add(rows.jacobian);
   }
   factor.add(relation_rows(problem.data, problem.space, point).jacobian);
@@ -209,8 +219,11 @@ Fit fit_declared(const DataSet& data, std::span<const std::size_t> poses, const 
   int measured = 0;
   for (const std::size_t pose : poses) measured += rows_of(data.poses[pose]).total();
   if (measured <= parameters) return too_few(start, poses.size(), measured, parameters);
+  // Far from its tool an arm seems to agree better the larger it is: links are freed where the tool is about right.
+  const bool tool_first = declared.tool && declared.geometry && has_contacts(data) && !has_instrument(data);
+  const CorrectedRobot near = tool_first ? fit_registration(data, poses, declared, start, options).robot : start;
   const CorrectedRobot placed =
-      with_own_contacts(locate_base_and_tools(data, poses, declared, start, options), data, poses);
+      with_own_contacts(locate_base_and_tools(data, poses, declared, near, options), data, poses);
   const auto observations = observe(data, poses, placed);
   Fit fit = fit_placed(data, observations, ids, placed, declared.tool, options);
   if (fit.status == FitStatus::too_few_poses) {

@@ -61,7 +61,7 @@ std::string stage_table(const Report& report, const Stages& stages) {
   const Stage* const registered = find_stage(stages, "registered");
   const Stage& last = stages.back();
   if (registered != nullptr && registered != &last) {
-    rows += stage_row(stages, "change since base fitted", " class=\"total\"",
+    rows += stage_row(stages, "change since " + registered->title, " class=\"total\"",
                       [&](const ReportPoseSet& set) { return changes(registered->on(set), last.on(set)); });
   }
   return "<div class=\"panel\"><table id=\"errors\">\n" + stages_head(report, stages) + "<tbody>\n" + rows +

@@ -30,6 +30,12 @@ void scale_residual(const Eigen::VectorXd& all, const MeasuredPose& pose, const 
   for_each_row_in_use(pose, scales, [&](int to, int from, double scale) { rows.residual[to] = all[from] / scale; });
 }
 
+/// Whether that row of a pose is the distance from a contact by the arm's own lengths alone: a wire shows its length.
+bool grows_with_the_arm(const MeasuredPose& pose, int row) {
+  const MeasurementRows rows = rows_of(pose);
+  return row >= rows.position && row < rows.points() && pose.contact_length_m == 0.0;
+}
+
 }  // namespace
 
 std::vector<Observation> observe(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
@@ -87,6 +93,9 @@ void scaled_rows(const DataSet& data, const ParameterSpace& space, const ModelPo
   rows.jacobian.resize(rows.residual.size(), space.size());
   for_each_row_in_use(pose, scales, [&](int to, int from, double scale) {
     rows.jacobian.row(to).noalias() = (-1.0 / scale) * measured.row(from) * rows.motion.twists;
+    if (!grows_with_the_arm(pose, from)) return;
+    rows.residual[to] /= point.size;
+    rows.jacobian.row(to) = (rows.jacobian.row(to) - rows.residual[to] * space.size_slopes().transpose()) / point.size;
   });
 }
 

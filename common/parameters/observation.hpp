@@ -38,8 +38,9 @@ RowCounts count_rows(const DataSet& data, const std::vector<Observation>& observ
 int rows_in_use(const MeasuredPose& pose, const RowScales& scales);
 int rows_in_use(const DataSet& data, const std::vector<Observation>& observations, const RowScales& scales);
 
-/// The rows of one pose in use: residual over scale, and its derivative (rows x parameters) by the changes. Kept and
-/// given again it is not reallocated for poses with equally many rows.
+/// The rows of one pose in use: residual over scale, of contacts over the model's size too (ParameterSpace), and its
+/// derivative (rows x parameters) by the changes. Kept and given again it is not reallocated for poses with equally
+/// many rows.
 struct ScaledRows {
   Eigen::VectorXd residual;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> jacobian;

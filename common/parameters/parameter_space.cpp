@@ -1,5 +1,6 @@
 #include "parameters/parameter_space.hpp"
 
+#include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
+#include "parameters/arm_size.hpp"
 
 namespace demecal::inline parameters {
 namespace {
@@ -189,11 +191,16 @@ ParameterSpace::ParameterSpace(CorrectedRobot reference, std::vector<ParameterId
     auto& values = reference_.effects[effect].values;
     if (values.size() <= coefficient) values.resize(coefficient + 1, 0.0);
   }
+  const bool touches = std::ranges::any_of(ids_, [](const ParameterId& id) { return id.kind == Kind::contact; });
+  size_slopes_ = Eigen::VectorXd::Zero(size());
+  if (touches) size_slopes_ = arm_size_slopes(*this);
 }
 
 ModelPoint ParameterSpace::at(const Eigen::VectorXd& change) const {
+  constexpr double kSmallest = 0.1;  ///< no arm, but a step of a search may go there
   DEMECAL_CHECK(change.size() == size(), change.size() << " changes of " << size() << " parameters");
   ModelPoint point{reference_, Eigen::Matrix3d::Identity(), {}};
+  point.size = std::max(kSmallest, 1.0 + size_slopes_.dot(change));
   for (int i = 0; i < size(); ++i) add_change(point.robot, ids_[static_cast<std::size_t>(i)], change[i]);
   const RotationVectors turns = rotation_vectors_of(ids_, change);
   point.robot.sensor_from_base.linear() = rotation_of(turns.base) * reference_.sensor_from_base.linear();

@@ -25,6 +25,7 @@ struct ModelPoint {
   std::map<std::string, Eigen::Matrix3d> station_turns{};
   /// Of each contact's place: the rotation vector by which it is turned, in its reference's frame.
   std::map<ContactGroup, Eigen::Vector3d> contact_turns{};
+  double size = 1.0;  ///< of the arm over the reference's
 };
 
 /// Where the tool is, and its twist (6 x parameters; linear m, angular rad; measurements' frame) per unit of each.
@@ -44,6 +45,10 @@ class ParameterSpace {
   int size() const { return static_cast<int>(ids_.size()); }
   const std::vector<ParameterId>& ids() const { return ids_; }
   const CorrectedRobot& reference() const { return reference_; }
+  /// The change of ModelPoint::size with each parameter. A touch scatters in the arm's real millimetres, whatever the
+  /// model takes these to be: rows of contacts are residuals over the model's size, since an arm that is smaller with
+  /// all it touches would otherwise seem to touch it more closely. All zero where nothing is touched.
+  const Eigen::VectorXd& size_slopes() const { return size_slopes_; }
 
   /// The model changed by `change` (size()).
   ModelPoint at(const Eigen::VectorXd& change) const;
@@ -64,6 +69,7 @@ class ParameterSpace {
   CorrectedRobot reference_;
   std::vector<ParameterId> ids_;
   std::vector<std::vector<int>> effect_columns_;  ///< by effect and coefficient; -1 where it is not free
+  Eigen::VectorXd size_slopes_;
 };
 
 /// The value of a parameter in a robot, rad or m (an effect's coefficient: SI; 0 in a robot without that effect);

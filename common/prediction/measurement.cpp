@@ -15,6 +15,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 #include "pieces/pieces.hpp"
+#include "prediction/only_places.hpp"
 
 namespace demecal::inline prediction {
 namespace {
@@ -216,9 +217,13 @@ std::vector<LengthError> length_errors(const CorrectedRobot& robot, const DataSe
 }
 
 ErrorFigures error_figures(const CorrectedRobot& robot, const DataSet& data, std::span<const std::size_t> poses) {
+  const std::set<ContactGroup> untold = only_placed(data);
   std::vector<std::size_t> measured;
-  for (const std::size_t i : poses)
-    if (measures_point(data.poses[i]) || !data.poses[i].distances_m.empty()) measured.push_back(i);
+  for (const std::size_t i : poses) {
+    const MeasuredPose& pose = data.poses[i];
+    const bool tells = !pose.contact.empty() ? !untold.contains(group_of(pose)) : measures_point(pose);
+    if (tells || (pose.contact.empty() && !pose.distances_m.empty())) measured.push_back(i);
+  }
   std::vector<double> errors_mm;
   for (const double error_m : tool_errors_m(robot, data, measured)) {
     // A formula may predict no number at all; such a pose is infinitely far off, and can be sorted.

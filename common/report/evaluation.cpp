@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +13,7 @@
 #include "kinematics/units.hpp"
 #include "parameters/posterior.hpp"
 #include "pieces/pieces.hpp"
+#include "prediction/only_places.hpp"
 #include "random/distributions.hpp"
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"
@@ -90,11 +92,13 @@ std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedMod
   std::iota(all.begin(), all.end(), std::size_t{0});
   const std::vector<double> after_m = tool_errors_m(robot, data, all);
   const std::vector<double> before_m = before == nullptr ? std::vector<double>{} : tool_errors_m(*before, data, all);
+  const std::set<ContactGroup> untold = only_placed(data);
   in_batches(poses.size(), [&](std::size_t i) {
     const MeasuredPose& pose = data.poses[i];
     PoseErrorEntry& entry = poses[i];
     entry = {pose.pose_id, pose.target, std::string(to_string(pose.set)), {}, {}, {}};
     const double widened = extrapolation(data.robot.chain, model.measured, pose.joints);
+    if (!pose.contact.empty() && untold.contains(group_of(pose))) return;
     if (before != nullptr) entry.before_mm = if_finite(millimetres(before_m[i]));
     entry.after_mm = if_finite(millimetres(after_m[i]));
     if (model.posterior && model.interval)

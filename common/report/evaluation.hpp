@@ -113,6 +113,9 @@ struct Evaluation {
   std::vector<UnappliedEffect> effects_not_applied;
   std::optional<PredictionEntry> prediction;      ///< for people alone
   std::optional<UncertaintyEntry> uncertainty{};  ///< of a corrected position at poses like these
+  /// For people alone, in its place where poses only touch something: they agree with means of their own, which tells
+  /// nothing of where the tool is.
+  std::optional<WorkspaceEntry> workspace_error{};
   std::vector<LengthErrorEntry> length_errors{};
   bool touches = false;  ///< whether the poses touch anything: then lengths are listed
 };

@@ -76,14 +76,21 @@ std::string with_unit(double value, const std::string& unit, int significant) {
   return significant_digits(value, significant) + (unit.empty() ? "" : " " + unit);
 }
 
+/// Whether all is touched and nothing measured, so that nothing tells where the arm stands and no base is fitted.
+bool tells_no_place(const Report& report) {
+  return !report.contacts.empty() && report.workspace_error && report.workspace_error->beside_base;
+}
+
 }  // namespace
 
 std::vector<Stage> error_stages(const Report& report) {
-  std::vector<Stage> stages{{"nominal", "before registration (instrument frame)", &report.nominal},
-                            {"registered", "base fitted", &report.registered},
-                            {"declared", "declared model fitted", &report.declared},
-                            {"before", declared_stage(report), &report.before},
-                            {"after", "with the effects found", &report.after}};
+  const bool placed = !tells_no_place(report);
+  std::vector<Stage> stages{
+      {"nominal", placed ? "before registration (instrument frame)" : "as described", &report.nominal},
+      {"registered", placed ? "base fitted" : "tool fitted", &report.registered},
+      {"declared", "declared model fitted", &report.declared},
+      {"before", declared_stage(report), &report.before},
+      {"after", "with the effects found", &report.after}};
   if (has_mean(report.before) && !report.added_any()) stages.pop_back();
   std::erase_if(stages, [](const Stage& stage) { return !has_mean(*stage.errors); });
   return stages;

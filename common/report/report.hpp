@@ -139,8 +139,7 @@ struct CauseEntry {
   std::optional<std::uint64_t> joint;
   std::string name;                  ///< for people: "gears of joint 2"
   std::vector<std::string> effects;  ///< as EffectEntry::name() has them
-  std::optional<double> without_mm, with_mm;
-  std::optional<double> share_of_error;
+  std::optional<double> without_mm, with_mm, share_of_error;
   std::vector<double> interval_mm;  ///< lower and upper end
   std::string advice;
   std::vector<std::string> alternatives{};  ///< names of causes that these poses cannot tell it from

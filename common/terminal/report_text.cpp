@@ -55,8 +55,8 @@ std::string intervals_text(const std::vector<PoseErrorEntry>& poses, const std::
   return wrapped("  prediction:", within + "; " + prediction->remark, 4);
 }
 
-std::string workspace(const Report& report) {
-  const std::string sentence = report.workspace_error ? workspace_sentence(*report.workspace_error) : "";
+std::string workspace(const std::optional<WorkspaceEntry>& error) {
+  const std::string sentence = error ? workspace_sentence(*error) : "";
   return sentence.empty() ? "" : wrapped("  workspace:", sentence, 4);
 }
 
@@ -70,7 +70,7 @@ std::string stages(const Report& report) {
   }
   const std::string outliers = outliers_sentence(report);
   return text + last_fit(report) + (outliers.empty() ? "" : wrapped(" ", outliers, 2)) +
-         intervals_text(report.pose_errors, report.prediction_interval) + workspace(report);
+         intervals_text(report.pose_errors, report.prediction_interval) + workspace(report.workspace_error);
 }
 
 std::string length_line(const LengthErrorEntry& length) {
@@ -237,6 +237,7 @@ std::string to_terminal(const Evaluation& evaluation) {
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
                         *evaluation.uncertainty->expanded_mm);
   }
+  text += workspace(evaluation.workspace_error);
   return text;
 }
 

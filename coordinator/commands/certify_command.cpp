@@ -131,7 +131,7 @@ ExitCode run_certify(const CertifyRequest& request) {
   if (!request.force && are_computed(checked)) return ExitCode::contradiction;
   if (!request.force) require_alike_arm(model, data);
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
-  check_fitted(data, model.robot, checked.check);
+  check_fitted(data, model.robot, model.posterior, model.interval, checked.check);
   std::vector<std::string> notes = notes_of_check(checked.check);
   const CertificateFields fields = stated_fields(load_certificate(request.data_file), model, data, notes);
   require_past_date(fields, request.data_file);

@@ -2,11 +2,9 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <cstdio>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -24,19 +22,16 @@
 #include "data_files/robot_file.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
-#include "html/page.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "prediction/corrected_arm.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "report/evaluation.hpp"
 #include "report/report.hpp"
-#include "studies/change_report.hpp"
 #include "symbolic/algebra.hpp"
 #include "symbolic/code.hpp"
 #include "symbolic/printing.hpp"
 #include "terminal/report_text.hpp"
-#include "updating/change.hpp"
 #include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
@@ -178,7 +173,7 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
   if (!request.force) require_alike_arm(model, data);
   if (model.posterior) model.posterior = posterior_seen(*model.posterior, model.robot, robot, model.stations, data);
   model.robot = robot;
-  check_fitted(data, robot, checked.check);
+  check_fitted(data, robot, model.posterior, model.interval, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),
                         pose_errors(data, model, robot, nullptr),
                         data_check_entry(checked.check),
@@ -186,6 +181,10 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                         {},
                         uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
   evaluation.touches = has_contacts(data);
+  if (evaluation.touches && !has_instrument(data)) {
+    evaluation.uncertainty.reset();
+    evaluation.workspace_error = workspace_entry(model, false);
+  }
   evaluation.length_errors = length_error_entries(data, robot, nullptr);
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
   fmt::print(stderr, "{}", to_terminal(evaluation.data_check, ShownFindings::all));
@@ -224,77 +223,6 @@ void add_evaluate(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--refit-base", request->refit_base,
                     "fit base and tool to the data first, where the instrument or the tool was moved");
   command->callback([request, &exit_code] { exit_code = run_evaluate(*request); });
-}
-
-namespace {
-
-struct CheckRequest {
-  std::string model_file, data_file, history;
-  bool json = false, force = false;
-};
-
-/// The names of poses that the check of the data found to be wrong by themselves.
-std::set<std::string> suspects(const DataCheck& check) {
-  std::set<std::string> names;
-  for (const Finding& finding : check.findings)
-    if (finding.kind == FindingKind::typing_error || finding.kind == FindingKind::rows_exchanged ||
-        finding.kind == FindingKind::outlier)
-      names.insert(finding.poses.begin(), finding.poses.end());
-  return names;
-}
-
-constexpr const char *kHistoryTable = "check-history.csv", *kHistoryPage = "check-history.html";
-/// The folder's record so far, which must be of the model's robot.
-std::vector<CheckRecord> history_of(const CheckRequest& request, const CalibratedModel& model) {
-  const std::string path = request.history + '/' + kHistoryTable;
-  if (request.history.empty() || !std::filesystem::exists(path)) return {};
-  std::vector<CheckRecord> records = read_check_history(read_file(path), path);
-  for (const CheckRecord& one : records)
-    if (!one.robot.empty() && one.robot != checked_robot(model))
-      throw InputError({path, 0}, one.robot,
-                       "is the robot of this record, not " + checked_robot(model) + ": give every robot its folder");
-  return records;
-}
-
-/// Adds the check to the folder's record, and draws it.
-void keep(const CheckRequest& request, CheckRecord check, std::vector<CheckRecord> records) {
-  make_writable(request.history, {kHistoryTable, kHistoryPage}, request.force);
-  records.push_back(std::move(check));
-  write_result(request.history, kHistoryTable, check_history_csv(records));
-  write_result(request.history, kHistoryPage, check_history_html(records));
-  fmt::print(stderr, "{}/{}: {} check{}\n", request.history, kHistoryPage, records.size(),
-             records.size() == 1 ? "" : "s");
-}
-
-ExitCode run_check(const CheckRequest& request) {
-  const CalibratedModel model = load_model(request.model_file);
-  require_one_robot(model, request.model_file, "check");
-  const CheckedData checked = load_checked_as_one_set(request.data_file);
-  const DataSet& data = checked.data;
-  require_positions(data, "check");
-  require_same_nominal_arm(model, data);
-  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
-  const std::vector<CheckRecord> history = history_of(request, model);
-  const ChangeReport change = find_change(model, data, suspects(checked.check));
-  if (!request.history.empty()) keep(request, check_record(change, data, model, request.model_file, today()), history);
-  fmt::print("{}",
-             request.json ? to_json(change, data, request.model_file) : change_text(change, data, request.model_file));
-  return change.verdict == ChangeVerdict::changed ? ExitCode::changed : ExitCode::done;
-}
-
-}  // namespace
-
-void add_check(CLI::App& app, ExitCode& exit_code) {
-  const auto request = std::make_shared<CheckRequest>();
-  CLI::App* command = app.add_subcommand("check", "whether the robot has changed since it was calibrated, and how");
-  command->add_option("model", request->model_file, "MODEL.yaml")->required();
-  command->add_option("data", request->data_file, "DATASET.yaml of a few new poses, 12 or more")->required();
-  command->add_flag("--json", request->json, "the answer as one line of JSON");
-  command->add_option("--history", request->history,
-                      "folder that keeps the record of checks: a line is added, and its control chart drawn");
-  add_force(*command, request->force);
-  command->callback([request, &exit_code] { exit_code = run_check(*request); });
 }
 
 }  // namespace demecal

@@ -64,6 +64,14 @@ TEST(ContactFit, FindsTheArmFromPointsThatNobodyKnows) {
   EXPECT_LT(rms_m(fit.robot, elsewhere.data), 3 * kPlay_m);
 }
 
+TEST(ContactFit, FindsTheToolFromFarOff) {
+  RandomStream stream{9215};
+  KnownArm arm = touching_arm(stream, kPlay_m, true, 12);
+  arm.data.robot.chain.tool_m.z() -= 0.04;
+  const Fit fit = fit_all(arm, kAll);
+  EXPECT_NEAR(fit.sigma_position_m, kPlay_m, 0.2 * kPlay_m) << fit.sentence;
+}
+
 TEST(ContactFit, WithoutALengthTheScaleStaysTheDescriptions) {
   RandomStream stream{9203};
   KnownArm arm = touching_arm(stream, kPlay_m, false);
@@ -85,6 +93,50 @@ TEST(ContactFit, WithoutALengthTheScaleStaysTheDescriptions) {
   const double nominal = spans(nominal_robot(arm.data)), truth = spans(arm.truth);
   EXPECT_LT(std::abs(spans(fit.robot) - nominal), 0.4 * std::abs(truth - nominal));
   EXPECT_LT(rms_m(fit.robot, arm.data), 2 * kPlay_m * std::sqrt(3.0));
+}
+
+/// How much larger the arm's free lengths are than the description's, as its makers' figures weigh them.
+double larger_share(const CorrectedRobot& robot, const CorrectedRobot& nominal) {
+  double product = 0.0, square = 0.0;
+  for (std::size_t joint = 1; joint < robot.chain.joints.size(); ++joint) {
+    const Joint &after = robot.chain.joints[joint], &before = nominal.chain.joints[joint];
+    product += (after.d_m - before.d_m) * before.d_m + (after.a_m - before.a_m) * before.a_m;
+    square += before.d_m * before.d_m + before.a_m * before.a_m;
+  }
+  return product / square;
+}
+
+/// Links that are right but for the joints' zeros: whatever their lengths are fitted to be is the fit's doing.
+KnownArm arm_of_described_lengths(RandomStream& stream, int count) {
+  KnownArm arm = perfect_arm(seven_joint_arm(), Frame::base);
+  misbuild(arm, stream, {.joint_offset = true});
+  touch(arm, stream, "left-0", kLeft, count, kPlay_m);
+  touch(arm, stream, "left-1", kLeft + kGauge, count, kPlay_m);
+  touch(arm, stream, "right-0", kRightPlace, count, kPlay_m);
+  return arm;
+}
+
+TEST(ContactFit, IsNoSmallerForBeingTouchedOften) {
+  for (const int count : {15, 60}) {
+    RandomStream stream{9213};
+    const KnownArm arm = arm_of_described_lengths(stream, count);
+    for (const bool robust : {false, true}) {
+      const Fit fit = fit_all(arm, kAll, {.robust = robust});
+      ASSERT_EQ(fit.status, FitStatus::converged) << fit.sentence;
+      EXPECT_NEAR(larger_share(fit.robot, nominal_robot(arm.data)), 0.0, 5e-4) << count;
+    }
+  }
+}
+
+TEST(ContactFit, BelievesALengthThatIsHardlyKnownAndNotHowOftenItIsTouched) {
+  RandomStream stream{9214};
+  KnownArm arm = arm_of_described_lengths(stream, 60);
+  for (const double sigma_m : {2e-5, 1e-4, 2e-4, 5e-4}) {
+    arm.data.contacts.distances = {{"left-0", "left-1", kGauge.norm(), sigma_m}};
+    const Fit fit = fit_all(arm, kAll);
+    ASSERT_EQ(fit.status, FitStatus::converged) << fit.sentence;
+    EXPECT_NEAR(larger_share(fit.robot, nominal_robot(arm.data)), 0.0, 1e-3) << sigma_m;
+  }
 }
 
 /// Independent of how the fit carries places: residuals about each contact's mean, by difference quotients, in one

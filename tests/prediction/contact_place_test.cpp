@@ -4,10 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <set>
 #include <vector>
 
 #include "kinematics/angles.hpp"
 #include "prediction/measurement.hpp"
+#include "prediction/only_places.hpp"
 #include "prediction/random_robot.hpp"
 
 namespace demecal {
@@ -166,6 +169,26 @@ TEST(LengthErrors, AreBetweenTheMeansOfBothContactsInEverySetThatHasThem) {
   ASSERT_EQ(errors.size(), 1u);
   EXPECT_EQ(errors[0].set, PoseSet::calibration);
   EXPECT_NEAR(errors[0].error_m, apart.norm() - 0.05, 1e-12);
+}
+
+TEST(OnlyPlaced, PosesCountInNoFigure) {
+  RandomStream stream{9106};
+  DataSet data;
+  data.robot.chain = random_arm(stream, 6, Convention::standard_dh);
+  add_touches(data, stream, "A", PoseSet::calibration, 3);
+  add_touches(data, stream, "B", PoseSet::calibration, 1);
+  add_touches(data, stream, "A", PoseSet::validation, 1);
+  add_touches(data, stream, "plate", PoseSet::calibration, 3);
+  data.contacts.forms = {{"plate", {ContactKind::plane, {}}}};
+  EXPECT_EQ(only_placed(data),
+            (std::set<ContactGroup>{
+                {"B", PoseSet::calibration}, {"A", PoseSet::validation}, {"plate", PoseSet::calibration}}));
+  const CorrectedRobot robot = random_robot(stream, data.robot.chain, 0.01, 0.05);
+  const std::vector<std::size_t> several{0, 1, 2}, all{0, 1, 2, 3, 4, 5, 6, 7}, alone{3, 4};
+  EXPECT_EQ(error_figures(robot, data, all).mean_mm, error_figures(robot, data, several).mean_mm);
+  EXPECT_TRUE(std::isnan(error_figures(robot, data, alone).max_mm));
+  add_touches(data, stream, "plate", PoseSet::calibration, 1);
+  EXPECT_FALSE(only_placed(data).contains({"plate", PoseSet::calibration}));
 }
 
 }  // namespace

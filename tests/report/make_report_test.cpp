@@ -116,5 +116,18 @@ TEST(NoiseFloor, DoesNotTakeDifferentTargetsForRepeats) {
   EXPECT_EQ(noise_floor_mm(data), std::nullopt);
 }
 
+TEST(ErrorStages, NameNoBaseWhereNothingTellsWhereTheArmStands) {
+  for (const bool touched : {false, true}) {
+    Report report;
+    report.nominal.calibration.mean_mm = report.registered.calibration.mean_mm = 1.0;
+    if (touched) report.contacts = {{.contact = "A", .set = "calibration", .kind = "point", .poses = 8}};
+    report.workspace_error = WorkspaceEntry{0.1, 0.2, touched};
+    const std::vector<Stage> stages = error_stages(report);
+    ASSERT_EQ(stages.size(), 2u);
+    EXPECT_EQ(stages[0].title, touched ? "as described" : "before registration (instrument frame)");
+    EXPECT_EQ(stages[1].title, touched ? "tool fitted" : "base fitted");
+  }
+}
+
 }  // namespace
 }  // namespace demecal

@@ -1,5 +1,6 @@
 // Poses that no fit learns from and that touch something say nothing of where the contact is: rows and columns of their
-// group sum to nothing, and columns are still what the model does to the errors about the contact's mean.
+// group sum to nothing, and columns are still what the model does to the errors about the contact's mean, over the
+// model's own size.
 #include <gtest/gtest.h>
 
 #include "fitting/touching_arm.hpp"
@@ -48,8 +49,15 @@ TEST(UnseenField, HasColumnsOfTheErrorsAboutTheContactsMean) {
   const std::vector<ParameterId> ids = free_parameters(arm.data, kAll);
   const ParameterSpace space(nominal_robot(arm.data), ids);
   const ResidualField field = unseen_field(arm.data, all_poses(arm.data), space.reference(), ids, kUnit);
+  std::vector<ParameterId> with_places = ids;
+  for (const ParameterId& id : contact_parameters(arm.data, all_poses(arm.data))) with_places.push_back(id);
+  const ParameterSpace sized(with_own_contacts(space.reference(), arm.data), with_places);
   const auto residual_of = [&](const Eigen::VectorXd& change) {
-    return unseen_field(arm.data, all_poses(arm.data), space.at(change).robot, ids, kUnit).residual;
+    Eigen::VectorXd of_arm = Eigen::VectorXd::Zero(sized.size());
+    of_arm.head(change.size()) = change;
+    const CorrectedRobot changed = space.at(change).robot;
+    return Eigen::VectorXd(unseen_field(arm.data, all_poses(arm.data), changed, ids, kUnit).residual /
+                           sized.at(of_arm).size);
   };
   for (int i = 0; i < space.size(); ++i) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(space.size(), i);

@@ -114,5 +114,12 @@ TEST(Terminal, ShowsOneStageWithItsSets) {
   EXPECT_THAT(text, Not(HasSubstr("accept")));
 }
 
+TEST(Terminal, SaysOfPosesThatTouchHowFarOffTheToolMayBeAnywhere) {
+  const ErrorBySet errors = made_up_report().after;
+  Evaluation evaluation{errors, {}, {}, {}, {}};
+  evaluation.workspace_error = WorkspaceEntry{0.25, 0.5, true};
+  EXPECT_THAT(to_terminal(evaluation), HasSubstr("off by 0.250 mm (rms)"));
+}
+
 }  // namespace
 }  // namespace demecal

@@ -1,0 +1,93 @@
+#include <fmt/format.h>
+#include <Eigen/Core>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "data_check/searches.hpp"
+#include "effects/arm_state.hpp"
+#include "kinematics/units.hpp"
+#include "parameters/posterior.hpp"
+#include "prediction/measurement.hpp"
+
+namespace demecal::inline data_check {
+namespace {
+
+constexpr double kDisagrees = 4.0;  ///< standard deviations
+
+/// Where the poses of a contact have it, and how that moves with each of the posterior's independent numbers.
+struct PlacedContact {
+  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
+  Eigen::MatrixXd spread_m;  ///< 3 x numbers
+  double touches = 0.0;
+};
+
+class PlacedContacts {
+ public:
+  PlacedContacts(const DataSet& data, const CorrectedRobot& robot, const Posterior& posterior)
+      : data_(data), robot_(robot), posterior_(posterior), groups_(contact_groups(data)) {}
+
+  PlacedContact at(const ContactGroup& group) const {
+    const std::vector<std::size_t>& members = groups_.at(group);
+    PlacedContact place{.spread_m = Eigen::MatrixXd::Zero(3, posterior_.factor.cols()),
+                        .touches = static_cast<double>(members.size())};
+    std::vector<Touch> touches;
+    for (const std::size_t index : members) {
+      const MeasuredPose& pose = data_.poses[index];
+      touches.push_back(touch_of(robot_, pose));
+      place.spread_m += pose_spread(posterior_, robot_, Stop(pose), pose.target).topRows<3>() / place.touches;
+    }
+    place.point_m = contact_place(data_.contacts.form_of(group.contact), touches).frame.translation();
+    return place;
+  }
+
+ private:
+  const DataSet& data_;
+  const CorrectedRobot& robot_;
+  const Posterior& posterior_;
+  std::map<ContactGroup, std::vector<std::size_t>> groups_;
+};
+
+/// What the model leaves open of a length, m^2: contacts' places are means of so many touches, but what it errs by
+/// beyond its posterior touches have in common.
+double open_m2(const PlacedContact& first, const PlacedContact& second, const PredictionInterval& interval) {
+  const Eigen::Vector3d along = (first.point_m - second.point_m).stableNormalized();
+  const Eigen::RowVectorXd spread_m = along.transpose() * (first.spread_m - second.spread_m);
+  return spread_m.squaredNorm() + std::pow(interval.noise_m, 2) * (1.0 / first.touches + 1.0 / second.touches) +
+         2.0 * std::pow(interval.model_error_m, 2);
+}
+
+}  // namespace
+
+std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const CorrectedRobot& robot,
+                                              const Posterior& posterior, const PredictionInterval& interval) {
+  std::vector<Finding> found;
+  const PlacedContacts places(data, robot, posterior);
+  for (const LengthError& one : length_errors(robot, data)) {
+    const KnownDistance& known = *one.known;
+    const PlacedContact first = places.at({known.first, one.set}), second = places.at({known.second, one.set});
+    const double deviation_m = std::sqrt(known.sigma_m * known.sigma_m + open_m2(first, second, interval));
+    if (!(std::abs(one.error_m) > kDisagrees * deviation_m)) continue;
+    Finding finding{.kind = FindingKind::disagreeing_length, .as_given_mm = millimetres(std::abs(one.error_m))};
+    finding.sentence = fmt::format(
+        "'{}' and '{}' are {:.6g} mm apart as given, and {:.3f} mm by the model at the {} poses: {:.0f} times the "
+        "standard uncertainty of both ({:.3f} mm). ",
+        known.first, known.second, millimetres(known.length_m), millimetres(known.length_m + one.error_m),
+        to_string(one.set), std::abs(one.error_m) / deviation_m, millimetres(deviation_m));
+    finding.sentence += data.contacts.distances.size() > 1
+                            ? "Known lengths contradict each other, or the model's scale is wrong: check all of "
+                              "contacts.distances, and the names of the contacts."
+                            : "The length or the model's scale is wrong: check contacts.distances, and the names of "
+                              "the contacts.";
+    found.push_back(std::move(finding));
+  }
+  return found;
+}
+
+}  // namespace demecal::inline data_check

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "closed_calibration/calibrated_model.hpp"
+#include "config/model_file.hpp"
+#include "coordinator/commands.hpp"
+#include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "errors/input_error.hpp"
+#include "html/page.hpp"
+#include "report/evaluation.hpp"
+#include "studies/change_report.hpp"
+#include "terminal/report_text.hpp"
+#include "updating/change.hpp"
+#include "updating/fleet_model.hpp"
+#include "workflows/workflows.hpp"
+#include "yaml/files.hpp"
+
+namespace demecal {
+namespace {
+
+struct CheckRequest {
+  std::string model_file, data_file, history;
+  bool json = false, force = false;
+};
+
+/// The names of poses that the check of the data found to be wrong by themselves.
+std::set<std::string> suspects(const DataCheck& check) {
+  std::set<std::string> names;
+  for (const Finding& finding : check.findings)
+    if (finding.kind == FindingKind::typing_error || finding.kind == FindingKind::rows_exchanged ||
+        finding.kind == FindingKind::outlier)
+      names.insert(finding.poses.begin(), finding.poses.end());
+  return names;
+}
+
+constexpr const char *kHistoryTable = "check-history.csv", *kHistoryPage = "check-history.html";
+
+/// The folder's record so far, which must be of the model's robot.
+std::vector<CheckRecord> history_of(const CheckRequest& request, const CalibratedModel& model) {
+  const std::string path = request.history + '/' + kHistoryTable;
+  if (request.history.empty() || !std::filesystem::exists(path)) return {};
+  std::vector<CheckRecord> records = read_check_history(read_file(path), path);
+  for (const CheckRecord& one : records)
+    if (!one.robot.empty() && one.robot != checked_robot(model))
+      throw InputError({path, 0}, one.robot,
+                       "is the robot of this record, not " + checked_robot(model) + ": give every robot its folder");
+  return records;
+}
+
+/// Adds the check to the folder's record, and draws it.
+void keep(const CheckRequest& request, CheckRecord check, std::vector<CheckRecord> records) {
+  make_writable(request.history, {kHistoryTable, kHistoryPage}, request.force);
+  records.push_back(std::move(check));
+  write_result(request.history, kHistoryTable, check_history_csv(records));
+  write_result(request.history, kHistoryPage, check_history_html(records));
+  fmt::print(stderr, "{}/{}: {} check{}\n", request.history, kHistoryPage, records.size(),
+             records.size() == 1 ? "" : "s");
+}
+
+ExitCode run_check(const CheckRequest& request) {
+  const CalibratedModel model = load_model(request.model_file);
+  require_one_robot(model, request.model_file, "check");
+  const CheckedData checked = load_checked_as_one_set(request.data_file);
+  const DataSet& data = checked.data;
+  require_positions(data, "check");
+  require_same_nominal_arm(model, data);
+  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
+  const std::vector<CheckRecord> history = history_of(request, model);
+  const ChangeReport change = find_change(model, data, suspects(checked.check));
+  if (!request.history.empty()) keep(request, check_record(change, data, model, request.model_file, today()), history);
+  fmt::print("{}",
+             request.json ? to_json(change, data, request.model_file) : change_text(change, data, request.model_file));
+  return change.verdict == ChangeVerdict::changed ? ExitCode::changed : ExitCode::done;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, ExitCode& exit_code) {
+  const auto request = std::make_shared<CheckRequest>();
+  CLI::App* command = app.add_subcommand("check", "whether the robot has changed since it was calibrated, and how");
+  command->add_option("model", request->model_file, "MODEL.yaml")->required();
+  command->add_option("data", request->data_file, "DATASET.yaml of a few new poses, 12 or more")->required();
+  command->add_flag("--json", request->json, "the answer as one line of JSON");
+  command->add_option("--history", request->history,
+                      "folder that keeps the record of checks: a line is added, and its control chart drawn");
+  add_force(*command, request->force);
+  command->callback([request, &exit_code] { exit_code = run_check(*request); });
+}
+
+}  // namespace demecal
