@@ -41,7 +41,7 @@ constexpr std::array<GroupWords, 11> kGroups{{
      "Declare the geometry, so that all links are fitted together."},
     {CauseGroup::zero, "zero", "zero", "",
      "Master the joint again, or declare the joint offsets, so that all are fitted together."},
-    {CauseGroup::tool, "tool", "tool point", "tool point",
+    {CauseGroup::tool, "tool_point", "tool point", "tool point",
      "Teach the tool point again, or declare the tool, so that it is fitted with all else."},
     {CauseGroup::heat, "heat", "temperature", "temperature of the arm",
      "Let the robot warm up before it works, or state its temperature when programs are corrected."},

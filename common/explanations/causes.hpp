@@ -28,7 +28,7 @@ ErrorCause cause_at(std::string_view kind, int joint);
 std::vector<ErrorCause> causes_of(const CorrectedRobot& robot);
 
 /// The word of files: "transmission", "lost_motion", "elasticity", "balance_spring", "bearing", "link_geometry",
-/// "zero", "tool", "heat", "instrument", "formula".
+/// "zero", "tool_point", "heat", "instrument", "formula".
 std::string_view to_string(CauseGroup group);
 /// "gears of joint 2", for people.
 std::string to_string(const ErrorCause& cause);

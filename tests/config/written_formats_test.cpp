@@ -100,14 +100,13 @@ UncertaintyEntry made_up_uncertainty() {
 TEST(WrittenFormats, EvaluationHasTheKeysOfThePage) {
   Report report = full_report();
   for (PoseErrorEntry& pose : report.pose_errors) pose.place = {};  // evaluate says no more than the errors
-  expect_json("evaluate --json", {to_json(Evaluation{report.after,
-                                                     report.pose_errors,
-                                                     report.data_check,
-                                                     {{"backlash", 2, "approach", 30, "It cannot be applied."}},
-                                                     report.prediction_interval,
-                                                     made_up_uncertainty(),
-                                                     report.length_errors,
-                                                     true})});
+  Evaluation evaluation{
+      report.after, report.pose_errors, report.data_check, {{"backlash", 2, "approach", 30, "It cannot be applied."}}};
+  evaluation.prediction = report.prediction_interval;
+  evaluation.uncertainty = made_up_uncertainty();
+  evaluation.length_errors = report.length_errors;
+  evaluation.touches = true;
+  expect_json("evaluate --json", {to_json(evaluation)});
 }
 
 /// Two cells with one seed each.

@@ -201,7 +201,7 @@ TEST(CauseEntry, MayBeLostMotionWhereSidesAreNotRecorded) {
 
 TEST(CauseEntry, SaysWhereASignIsNoArms) {
   const auto says = [](const std::string& kind, double value, const std::string& words, const std::string& form = "") {
-    const Effect effect{.kind = kind, .joint = 1, .form = form, .values = {value, 0.0}};
+    const Effect effect{.kind = kind, .joint = 1, .settings = {{"from", 1.0}}, .form = form, .values = {value, 0.0}};
     return cause_of_one(effect, {}).advice.find(words) != std::string::npos;
   };
   EXPECT_TRUE(says("compliance", -1e-6, "against its load"));

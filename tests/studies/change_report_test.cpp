@@ -8,6 +8,7 @@ namespace {
 
 bool says(const ChangeReport& change, const std::string& words, const std::string& name = "P") {
   DataSet data;
+  data.robot.chain.joints.resize(6);
   for (const std::size_t line : {2U, 3U, 4U}) {
     MeasuredPose pose;
     pose.pose_id = name;
