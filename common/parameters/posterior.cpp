@@ -73,8 +73,7 @@ double touched_square_m2(const Posterior& posterior, const CorrectedRobot& robot
 }  // namespace
 
 Posterior with_turned_base(Posterior posterior, const Eigen::Matrix3d& turn) {
-  using Kind = ParameterId::Kind;
-  for (const Kind kind : {Kind::base_translation, Kind::base_rotation}) {
+  for (const auto kind : {ParameterId::Kind::base_translation, ParameterId::Kind::base_rotation}) {
     Eigen::MatrixXd along = Eigen::MatrixXd::Zero(3, posterior.factor.cols());
     const auto each = [&](const auto& visit) {
       for (std::size_t i = 0; i < posterior.ids.size(); ++i)

@@ -93,17 +93,18 @@ TEST(WrittenFormats, ReportNamesEveryFinding) {
   EXPECT_THAT(named, ContainerEq(kinds));
 }
 
-UncertaintyEntry made_up_uncertainty() {
-  return {{{"numbers of the model", "A", 0.03}}, 0.04, 2.0, 0.08, "from poses"};
-}
+const UncertaintyEntry kMadeUpUncertainty{{{"numbers of the model", "A", 0.03}}, 0.04, 2.0, 0.08, "from poses"};
 
 TEST(WrittenFormats, EvaluationHasTheKeysOfThePage) {
   Report report = full_report();
   for (PoseErrorEntry& pose : report.pose_errors) pose.place = {};  // evaluate says no more than the errors
-  Evaluation evaluation{
-      report.after, report.pose_errors, report.data_check, {{"backlash", 2, "approach", 30, "It cannot be applied."}}};
+  Evaluation evaluation;
+  evaluation.error_mm = report.after;
+  evaluation.pose_errors = report.pose_errors;
+  evaluation.data_check = report.data_check;
+  evaluation.effects_not_applied = {{"backlash", 2, "approach", 30, "It cannot be applied."}};
   evaluation.prediction = report.prediction_interval;
-  evaluation.uncertainty = made_up_uncertainty();
+  evaluation.uncertainty = kMadeUpUncertainty;
   evaluation.length_errors = report.length_errors;
   evaluation.touches = true;
   expect_json("evaluate --json", {to_json(evaluation)});
@@ -140,7 +141,7 @@ TEST(WrittenFormats, ComparisonHasTheKeysOfThePage) {
 
 TEST(WrittenFormats, CertificateHasTheKeysOfThePage) {
   Certificate certificate;
-  certificate.uncertainty = made_up_uncertainty();
+  certificate.uncertainty = kMadeUpUncertainty;
   certificate.conditions.resize(1);
   certificate.characteristics.resize(1);
   certificate.poses.resize(1);

@@ -120,7 +120,7 @@ TEST(ErrorStages, NameNoBaseWhereNothingTellsWhereTheArmStands) {
   for (const bool touched : {false, true}) {
     Report report;
     report.nominal.calibration.mean_mm = report.registered.calibration.mean_mm = 1.0;
-    if (touched) report.contacts = {{.contact = "A", .set = "calibration", .kind = "point", .poses = 8}};
+    if (touched) report.contacts.emplace_back();
     report.workspace_error = WorkspaceEntry{0.1, 0.2, touched};
     const std::vector<Stage> stages = error_stages(report);
     ASSERT_EQ(stages.size(), 2u);
