@@ -86,7 +86,6 @@ ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data) {
 
 std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
                                         const CorrectedRobot* before) {
-  constexpr double kOutside = 1.1;  ///< less is not worth a flag
   std::vector<PoseErrorEntry> poses(data.poses.size());
   std::vector<std::size_t> all(data.poses.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
@@ -104,7 +103,7 @@ std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedMod
     if (model.posterior && model.interval)
       entry.interval95_mm =
           if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose, widened)));
-    if (widened > kOutside) entry.flags.emplace_back("outside_measured");
+    if (widened > kOutsideMeasured) entry.flags.emplace_back("outside_measured");
   });
   return poses;
 }

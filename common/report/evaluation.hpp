@@ -49,6 +49,9 @@ std::optional<UncertaintyEntry> uncertainty_of(const CalibratedModel& model, con
 SetErrors set_errors(const ErrorFigures& figures);
 ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data);
 
+/// Of extrapolation(): above it a pose counts as outside the measured joints; less is not worth a flag.
+inline constexpr double kOutsideMeasured = 1.1;
+
 /// Of all poses of the data, in their order, by a model that predicts them with `robot` (its own, or the same with
 /// another base). `before`: none where it is not known.
 std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
