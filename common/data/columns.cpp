@@ -34,6 +34,9 @@ double from_micrometres(double value) {
 double from_inches(double value) {
   return value * 25.4e-3;
 }
+double from_gons(double value) {
+  return radians(0.9 * value);
+}
 double from_thousandths(double value) {
   return value * 1e-3;
 }
@@ -45,13 +48,14 @@ double from_fahrenheit(double value) {
 }
 
 /// Units that headings give in brackets, beside those above; names end in those of masses and temperatures too.
-constexpr std::array<ColumnUnit, 31> kHeadingUnits{{
+constexpr std::array<ColumnUnit, 32> kHeadingUnits{{
     {"°", Quantity::angle, radians},
     {"degree", Quantity::angle, radians},
     {"degrees", Quantity::angle, radians},
     {"radian", Quantity::angle, unchanged},
     {"radians", Quantity::angle, unchanged},
     {"mrad", Quantity::angle, from_thousandths},
+    {"gon", Quantity::angle, from_gons},
     {"millimeter", Quantity::length, metres},
     {"millimeters", Quantity::length, metres},
     {"meter", Quantity::length, unchanged},
@@ -80,9 +84,9 @@ constexpr std::array<ColumnUnit, 31> kHeadingUnits{{
 }};
 
 /// Units that other programs write; silence about them would be a wrong number.
-constexpr std::array<std::string_view, 20> kForeignUnits{
-    "degrees", "mrad", "arcsec", "arcmin", "turns", "um",         "cm", "inch", "in",  "ft",
-    "g",       "lb",   "k",      "kelvin", "f",     "fahrenheit", "ms", "us",   "min", "h"};
+constexpr std::array<std::string_view, 21> kForeignUnits{
+    "degrees", "mrad", "gon", "arcsec", "arcmin", "turns",      "um", "cm", "inch", "in", "ft",
+    "g",       "lb",   "k",   "kelvin", "f",      "fahrenheit", "ms", "us", "min",  "h"};
 
 struct Wording {
   std::string_view is;

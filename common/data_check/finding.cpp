@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 31> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 34> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -31,6 +31,9 @@ constexpr std::array<KindRow, 31> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::instrument_moved, "instrument_moved", false},
                                           {FindingKind::joint_zero_changed, "joint_zero_changed", false},
                                           {FindingKind::computed_positions, "computed_positions", false},
+                                          {FindingKind::coarse_values, "coarse_values", false},
+                                          {FindingKind::early_joints, "early_joints", false},
+                                          {FindingKind::drift_without_times, "drift_without_times", false},
                                           {FindingKind::wrong_axes, "wrong_axes", false},
                                           {FindingKind::set_in_other_frame, "set_in_other_frame", false},
                                           {FindingKind::wrong_tool, "wrong_tool", false},

@@ -8,6 +8,7 @@
 
 #include "data_check/explanations.hpp"
 #include "data_check/point_pairs.hpp"
+#include "data_check/projected_columns.hpp"
 #include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "random/distributions.hpp"
@@ -15,68 +16,14 @@
 namespace demecal::inline data_check {
 namespace {
 
-constexpr std::size_t kFewestAside = 5;   ///< rows on either side of a jump
-constexpr double kJumpGain = 50.0;        ///< log likelihood that another zero must gain, for each row of a pose
-constexpr double kGainOverDrift = 25.0;   ///< the same over drift
-constexpr double kJumpFall = 0.6;         ///< ratio of median errors: the fit has taken a part of the jump
-constexpr double kJumpDeviations = 3.0;   ///< that points must jump by at the least
-constexpr double kJumpCap = 6.0;          ///< deviations beyond which an error says no more
-constexpr double kFullWeight = 3.0;       ///< deviations up to which rows count in full
-constexpr double kDerivativeStep = 1e-6;  ///< rad or m
-constexpr double kMostJump = 0.035;       ///< rad or m: more is no change of a zero but another way to read the joint
+constexpr std::size_t kFewestAside = 5;  ///< rows on either side of a jump
+constexpr double kJumpGain = 50.0;       ///< log likelihood that another zero must gain, for each row of a pose
+constexpr double kGainOverDrift = 25.0;  ///< the same over drift
+constexpr double kJumpFall = 0.6;        ///< ratio of median errors: the fit has taken a part of the jump
+constexpr double kJumpDeviations = 3.0;  ///< that points must jump by at the least
+constexpr double kJumpCap = 6.0;         ///< deviations beyond which an error says no more
+constexpr double kMostJump = 0.035;      ///< rad or m: more is no change of a zero but another way to read the joint
 constexpr int kRefits = 4;
-
-/// Columns of coordinates, three a row, weighted, with what base, tools and links can take of them.
-class Projected {
- public:
-  Projected(const Trial& trial, const TrialFit& fit) : linear_(linearized(trial, fit)) {
-    weights_.resize(linear_.error_m.size());
-    for (Eigen::Index i = 0; i < weights_.size(); ++i) {
-      const double error_m = linear_.error_m.segment<3>(i / 3 * 3).norm();
-      weights_[i] = std::min(1.0, kFullWeight * fit.deviation_m / error_m) / (fit.deviation_m * fit.deviation_m);
-    }
-    const Eigen::MatrixXd weighted = weights_.asDiagonal() * linear_.jacobian;
-    Eigen::MatrixXd information = linear_.jacobian.transpose() * weighted;
-    information.diagonal() += linear_.prior;
-    factor_ = PivotedCholesky(information);
-    weighted_ = weighted;
-    error_ = factor_.solve(weighted_.transpose() * linear_.error_m);
-  }
-
-  /// b' W e of the parts that base, tools and links leave.
-  Eigen::VectorXd with_error(const Eigen::MatrixXd& columns) const {
-    return columns.transpose() * weights_.cwiseProduct(linear_.error_m) - columns.transpose() * (weighted_ * error_);
-  }
-  Eigen::MatrixXd with_itself(const Eigen::MatrixXd& columns) const {
-    const Eigen::MatrixXd shared = weighted_.transpose() * columns;
-    return columns.transpose() * weights_.asDiagonal() * columns - shared.transpose() * factor_.solve(shared);
-  }
-  /// Nats that the columns gain together.
-  double gain(const Eigen::MatrixXd& columns) const {
-    const Eigen::VectorXd error = with_error(columns);
-    Eigen::MatrixXd squares = with_itself(columns);
-    squares.diagonal() *= 1.0 + 1e-9;
-    return 0.5 * error.dot(PivotedCholesky(squares).solve(error));
-  }
-
- private:
-  LinearizedTrial linear_;
-  Eigen::VectorXd weights_, error_;
-  Eigen::MatrixXd weighted_;
-  PivotedCholesky factor_;
-};
-
-/// How points move with one joint, three coordinates a row.
-Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint) {
-  Eigen::VectorXd column(3 * static_cast<Eigen::Index>(trial.rows.size()));
-  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
-    TrialRow row = trial.rows[i];
-    row.joints[joint] += kDerivativeStep;
-    column.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-        (predicted_point(fit, row) - predicted_point(fit, trial.rows[i])) / kDerivativeStep;
-  }
-  return column;
-}
 
 /// Nothing before a row, the column from there on.
 Eigen::VectorXd from_row(const Eigen::VectorXd& column, std::size_t row) {
@@ -91,7 +38,7 @@ struct JumpStart {
   double gain = 0.0, by = 0.0;
 };
 
-JumpStart best_start(const Trial& trial, const TrialFit& fit, const Projected& projected) {
+JumpStart best_start(const Trial& trial, const TrialFit& fit, const ProjectedColumns& projected) {
   JumpStart best;
   for (int joint = 0; joint < trial.chain.size(); ++joint) {
     const Eigen::VectorXd column = joint_column(trial, fit, joint);
@@ -106,7 +53,7 @@ JumpStart best_start(const Trial& trial, const TrialFit& fit, const Projected& p
 }
 
 /// The most that drift of all joints gains, linear or settling sooner or later.
-double drift_gain(const Trial& trial, const TrialFit& fit, const Projected& projected) {
+double drift_gain(const Trial& trial, const TrialFit& fit, const ProjectedColumns& projected) {
   double most = 0.0;
   const auto n = static_cast<double>(trial.rows.size());
   for (const double settling : {0.1, 0.3, 1e3}) {
@@ -166,7 +113,7 @@ double median_between(const std::vector<double>& errors, std::size_t begin, std:
 std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit) {
   const std::size_t n = trial.rows.size();
   if (n < 2 * kFewestAside + 2 || !fit.has_links()) return std::nullopt;
-  const Projected projected(trial, fit);
+  const ProjectedColumns projected(trial, fit);
   const JumpStart start = best_start(trial, fit, projected);
   if (start.gain < kGainOverDrift) return std::nullopt;
   ZeroJump jump{{.first_row = start.row, .joint = start.joint, .by = start.by}, trial, fit};
@@ -175,7 +122,7 @@ std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit) 
     jump.fit = fit_arm(jump.trial, fit_base_and_tools(jump.trial));
     if (!jump.fit.has_links()) return std::nullopt;
     if (i + 1 == kRefits) break;
-    const Projected again(jump.trial, jump.fit);
+    const ProjectedColumns again(jump.trial, jump.fit);
     const Eigen::VectorXd column = from_row(joint_column(jump.trial, jump.fit, start.joint), jump.move.first_row);
     jump.move.by += again.with_error(column)[0] / again.with_itself(column)(0, 0);
     jump.move.first_row = best_row(trial, jump.fit, start.joint, jump.move.by);

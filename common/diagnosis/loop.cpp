@@ -141,7 +141,7 @@ void ClosedLoop::measure_pure_error(const Linearization& linearization) {
   if (!outcome_.lack_of_fit_p) outcome_.lack_of_fit_p = lack_of_fit_p_value(*pure, squares, freedom);
   const double left = squares / freedom - std::pow(pure->deviation_m, 2);
   if (!start_excess_) start_excess_ = left;
-  if (*start_excess_ > 0.0) outcome_.explained_share = 1.0 - left / *start_excess_;
+  if (*start_excess_ > 0.0) outcome_.explained_share = 1.0 - std::max(0.0, left) / *start_excess_;
 }
 
 GroupRules ClosedLoop::rules() const {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -183,6 +184,9 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
   }
   check_circumstances(program, model, circumstances, sentences);
+  for (const Effect& effect : model.robot.effects)
+    if (const std::string_view reversal = law_of(effect).reversal(effect); !reversal.empty())
+      sentences.push_back(names_of({&effect}) + ": " + std::string(reversal));
   if (circumstances.tool_given) check_given_tool(program, model.nominal.chain.tool_m, sentences);
   return sentences;
 }

@@ -10,6 +10,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -210,10 +211,14 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
 }
 
 std::optional<PureError> pure_error(const DataSet& data, std::span<const std::size_t> poses) {
-  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> repeats;
+  // What repeats from either side differ by is lost motion, and no noise.
+  std::map<std::tuple<std::string, std::string, std::string, std::vector<double>>, std::vector<std::size_t>> repeats;
   for (const std::size_t pose : poses) {
     const MeasuredPose& at = data.poses[pose];
-    if (at.position_m && !at.pose_id.empty()) repeats[{at.pose_id, at.target}].push_back(pose);
+    if (!at.position_m || at.pose_id.empty()) continue;
+    std::vector<double> sides;
+    if (at.approach) sides.assign(at.approach->begin(), at.approach->end());
+    repeats[{at.pose_id, at.target, at.station, sides}].push_back(pose);
   }
   PureError error;
   for (const auto& [id, group] : repeats) {

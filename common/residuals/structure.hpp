@@ -22,7 +22,7 @@ namespace demecal::inline residuals {
 double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int draws,
                          RandomStream random);
 
-/// Repeats of a pose give the pure error, whatever the model.
+/// Repeats of a pose, from the same sides and station, give the pure error, whatever the model.
 struct PureError {
   double deviation_m = 0.0;  ///< of positions, per axis, about the mean of their repeats
   double freedom = 0.0;      ///< degrees of freedom, in rows

@@ -176,6 +176,7 @@ CalibratedModel fleet_model(const std::vector<NamedModel>& models) {
   for (const auto& [file, model] : models) {
     all.push_back(&model);
     fleet.fleet->robots.push_back({file, model.job, model.data_name, model.data_sha256});
+    fleet.approach_recorded = fleet.approach_recorded && model.approach_recorded;
   }
   fleet.job = fmt::format("fleet of {} robots", models.size());
   fleet.data_name = fleet.job;

@@ -106,6 +106,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
                   .stations = stations_as_found(update.robot, data),
                   .data_name = data.name,
                   .data_sha256 = data.sha256,
+                  .approach_recorded = prior.approach_recorded,
                   .seed = job.seed,
                   .version = DEMECAL_VERSION};
   result.remarks = update.sentences;

@@ -82,6 +82,24 @@ TEST(Concerns, SayWhatEffectsDependOnAndNobodyStates) {
   EXPECT_THAT(sentences({.payload_kg = 0.0, .temperature_celsius = 30.0}), IsEmpty());
 }
 
+TEST(Concerns, SayWhichEffectsAreNotToBeBelieved) {
+  for (const double width : {4e-4, -4e-4}) {
+    CommandModel model = wave_model(2e-3);
+    model.robot.effects = {
+        {.kind = "backlash", .joint = 1, .settings = {}, .form = "approach", .formula = {}, .values = {width}}};
+    const CorrectedProgram corrected = corrected_joints(model, joints_with(0.5, 0.2));
+    const auto sentence = [](const Remark& warning) { return warning.sentence; };
+    std::vector<std::string> all;
+    std::ranges::transform(corrected.warnings, std::back_inserter(all), sentence);
+    const auto refusal = HasSubstr("backlash of joint 2: The joint stops beyond where it is sent");
+    if (width < 0.0) {
+      EXPECT_THAT(all, ::testing::Contains(refusal));
+    } else {
+      EXPECT_THAT(all, ::testing::Not(::testing::Contains(refusal)));
+    }
+  }
+}
+
 TEST(Concerns, NameTheJointBeyondItsLimits) {
   const CorrectedProgram corrected = corrected_joints(wave_model(2e-3), joints_with(0.5, 2.6));
   ASSERT_EQ(corrected.warnings.size(), 1u);

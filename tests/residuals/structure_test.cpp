@@ -125,6 +125,11 @@ TEST(PureError, NeedsRepeats) {
   DataSet targets = repeats({{"A", {1, 0, 0}}, {"A", {2, 0, 0}}});
   targets.poses[1].target = "ball 2";
   EXPECT_FALSE(pure_error(targets, all_poses(targets)).has_value());
+  DataSet sides = repeats({{"A", {1, 0, 0}}, {"A", {1.001, 0, 0}}});
+  for (MeasuredPose& pose : sides.poses) pose.approach = ApproachSigns::Ones(6);
+  EXPECT_TRUE(pure_error(sides, all_poses(sides)).has_value());
+  (*sides.poses[1].approach)[2] = -1.0;
+  EXPECT_FALSE(pure_error(sides, all_poses(sides)).has_value());
 }
 
 /// F with `numerator` and `denominator` degrees of freedom.

@@ -8,6 +8,7 @@
 
 #include "../errors/complaint.hpp"
 #include "data/columns.hpp"
+#include "kinematics/units.hpp"
 #include "written_table.hpp"
 
 namespace demecal {
@@ -118,7 +119,7 @@ TEST(ReadTable, TakesUnitsFromBracketsAndFromARowBelowTheNames) {
 }
 
 TEST(ReadTable, ConvertsEveryUnitOfHeadings) {
-  const CsvTable table = read_table("a [um];b [in];c [mrad];d [ms]\n1500;2;3;250\n4;5;6;7\n", "p.txt").table;
+  const CsvTable table = read_table("a [um];b [in];c [mrad];d [ms];e [gon]\n1500;2;3;250;200\n4;5;6;7;8\n", "p.txt").table;
   const auto value = [&](const char* name, Quantity quantity) {
     return TableColumn(table, {name, {}}, quantity, {}).number(table.rows[0]);
   };
@@ -126,6 +127,7 @@ TEST(ReadTable, ConvertsEveryUnitOfHeadings) {
   EXPECT_DOUBLE_EQ(value("b", Quantity::length), 0.0508);
   EXPECT_DOUBLE_EQ(value("c", Quantity::angle), 0.003);
   EXPECT_DOUBLE_EQ(value("d", Quantity::time), 0.25);
+  EXPECT_DOUBLE_EQ(value("e", Quantity::angle), radians(180.0));
   EXPECT_THAT(complaint([&] { value("a", Quantity::angle); }), HasSubstr("a unit of a length"));
 }
 

@@ -1,0 +1,54 @@
+#include "data_check/projected_columns.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace demecal::inline data_check {
+
+ProjectedColumns::ProjectedColumns(const Trial& trial, const TrialFit& fit) : linear_(linearized(trial, fit)) {
+  constexpr double kFullWeight = 3.0;  // deviations up to which rows count in full
+  weights_.resize(linear_.error_m.size());
+  for (Eigen::Index i = 0; i < weights_.size(); ++i) {
+    const double error_m = linear_.error_m.segment<3>(i / 3 * 3).norm();
+    weights_[i] = std::min(1.0, kFullWeight * fit.deviation_m / error_m) / (fit.deviation_m * fit.deviation_m);
+  }
+  const Eigen::MatrixXd weighted = weights_.asDiagonal() * linear_.jacobian;
+  Eigen::MatrixXd information = linear_.jacobian.transpose() * weighted;
+  information.diagonal() += linear_.prior;
+  factor_ = PivotedCholesky(information);
+  weighted_ = weighted;
+  error_ = factor_.solve(weighted_.transpose() * linear_.error_m);
+}
+
+Eigen::VectorXd ProjectedColumns::with_error(const Eigen::MatrixXd& columns) const {
+  return columns.transpose() * weights_.cwiseProduct(linear_.error_m) - columns.transpose() * (weighted_ * error_);
+}
+
+Eigen::MatrixXd ProjectedColumns::with_itself(const Eigen::MatrixXd& columns) const {
+  const Eigen::MatrixXd shared = weighted_.transpose() * columns;
+  return columns.transpose() * weights_.asDiagonal() * columns - shared.transpose() * factor_.solve(shared);
+}
+
+Eigen::VectorXd ProjectedColumns::coefficients(const Eigen::MatrixXd& columns) const {
+  Eigen::MatrixXd squares = with_itself(columns);
+  squares.diagonal() *= 1.0 + 1e-9;
+  return PivotedCholesky(squares).solve(with_error(columns));
+}
+
+double ProjectedColumns::gain(const Eigen::MatrixXd& columns) const {
+  return 0.5 * with_error(columns).dot(coefficients(columns));
+}
+
+Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint) {
+  constexpr double kDerivativeStep = 1e-6;  // rad or m
+  Eigen::VectorXd column(3 * static_cast<Eigen::Index>(trial.rows.size()));
+  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
+    TrialRow row = trial.rows[i];
+    row.joints[joint] += kDerivativeStep;
+    column.segment<3>(3 * static_cast<Eigen::Index>(i)) =
+        (predicted_point(fit, row) - predicted_point(fit, trial.rows[i])) / kDerivativeStep;
+  }
+  return column;
+}
+
+}  // namespace demecal::inline data_check

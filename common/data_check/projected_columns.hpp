@@ -1,0 +1,36 @@
+// What more could explain the errors of a trial than base, tools and links: columns of coordinates, less what these can
+// take of them.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "data_check/trial_fit.hpp"
+#include "decompositions/decompositions.hpp"
+
+namespace demecal::inline data_check {
+
+/// Columns have three coordinates for each row of the trial, m. Rows that are far off a fit with links count less.
+class ProjectedColumns {
+ public:
+  ProjectedColumns(const Trial& trial, const TrialFit& fit);
+
+  /// b' W e of the parts that base, tools and links leave, for each column b and the errors e.
+  Eigen::VectorXd with_error(const Eigen::MatrixXd& columns) const;
+  /// b' W c of the same, for all pairs of columns.
+  Eigen::MatrixXd with_itself(const Eigen::MatrixXd& columns) const;
+  /// Log likelihood, in nats, that the columns gain together.
+  double gain(const Eigen::MatrixXd& columns) const;
+  /// The columns' least-squares coefficients.
+  Eigen::VectorXd coefficients(const Eigen::MatrixXd& columns) const;
+
+ private:
+  LinearizedTrial linear_;
+  Eigen::VectorXd weights_, error_;
+  Eigen::MatrixXd weighted_;
+  PivotedCholesky factor_;
+};
+
+/// How points move with one joint, three coordinates a row, m per rad or m.
+Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint);
+
+}  // namespace demecal::inline data_check

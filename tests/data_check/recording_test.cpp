@@ -1,0 +1,100 @@
+// What recording does to values is named: coarse digits, joints read before the arm stood, drift without times.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "data_check/check_data.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/units.hpp"
+#include "mistaken_case.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+namespace {
+
+/// Data sets of 150 poses of every arm, without times.
+std::vector<DataSet> long_measurements(std::uint64_t seed) {
+  std::vector<DataSet> all;
+  for (const Robot& arm : bench::mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots"))
+    all.push_back(bench::unmistaken_cases({arm}, 10, {.seed = seed}).back().data);
+  return all;
+}
+
+/// The findings of a kind, as sentences.
+std::vector<std::string> sentences(const DataCheck& check, FindingKind kind) {
+  std::vector<std::string> all;
+  for (const Finding& finding : check.findings)
+    if (finding.kind == kind) all.push_back(finding.sentence);
+  return all;
+}
+
+double rounded_to(double value, double step) {
+  return step * std::round(value / step);
+}
+
+TEST(Recording, WhatIsRoundedCoarselyIsNamed) {
+  for (const DataSet& right : long_measurements(5)) {
+    EXPECT_FALSE(check_data(right).has(FindingKind::coarse_values)) << right.robot.name;
+    DataSet positions = right;
+    for (MeasuredPose& pose : positions.poses) pose.position_m->z() = rounded_to(pose.position_m->z(), 0.01);
+    const auto told = sentences(check_data(positions), FindingKind::coarse_values);
+    ASSERT_EQ(told.size(), 1U) << right.robot.name;
+    EXPECT_NE(told.front().find("z to 10 mm only"), std::string::npos) << told.front();
+    DataSet joints = right;
+    for (MeasuredPose& pose : joints.poses) pose.joints[1] = rounded_to(pose.joints[1], radians(1.0));
+    const DataCheck check = check_data(joints);
+    ASSERT_TRUE(check.has(FindingKind::coarse_values)) << right.robot.name;
+    for (const Finding& finding : check.findings)
+      if (finding.kind == FindingKind::coarse_values) EXPECT_EQ(finding.joint, 1) << finding.sentence;
+  }
+}
+
+TEST(Recording, JointsThatWereSentToWholeDegreesAreNotCalledRounded) {
+  for (const DataSet& right : long_measurements(6)) {
+    DataSet sent = right;
+    RandomStream random({1});
+    for (MeasuredPose& pose : sent.poses) {
+      for (double& joint : pose.joints) joint = rounded_to(joint, radians(1.0));
+      pose.position_m = forward(sent.robot.chain, pose.joints) * nominal_tool(sent, pose);
+      for (double& coordinate : *pose.position_m) coordinate += 1e-4 * random.normal();
+    }
+    EXPECT_FALSE(check_data(sent).has(FindingKind::coarse_values)) << right.robot.name;
+  }
+}
+
+TEST(Recording, JointsThatWereReadBeforeTheArmStoodAreNamed) {
+  for (const DataSet& right : long_measurements(7)) {
+    EXPECT_FALSE(check_data(right).has(FindingKind::early_joints)) << right.robot.name;
+    DataSet early = right;
+    for (std::size_t i = 1; i < early.poses.size(); ++i)
+      early.poses[i].joints -= 0.003 * (right.poses[i].joints - right.poses[i - 1].joints);
+    const auto told = sentences(check_data(early), FindingKind::early_joints);
+    ASSERT_EQ(told.size(), 1U) << right.robot.name;
+    EXPECT_NE(told.front().find("0.3 % of every joint's way"), std::string::npos) << told.front();
+    DataSet lost = right;
+    for (std::size_t i = 1; i < lost.poses.size(); ++i)
+      for (Eigen::Index joint = 0; joint < right.poses[i].joints.size(); ++joint)
+        lost.poses[i].joints[joint] += right.poses[i].joints[joint] > right.poses[i - 1].joints[joint] ? 5e-4 : -5e-4;
+    EXPECT_FALSE(check_data(lost).has(FindingKind::early_joints)) << right.robot.name;
+  }
+}
+
+TEST(Recording, DriftIsNamedWhereNoTimesAreGiven) {
+  for (const DataSet& right : long_measurements(8)) {
+    EXPECT_FALSE(check_data(right).has(FindingKind::drift_without_times)) << right.robot.name;
+    DataSet drifting = right;
+    const auto n = static_cast<double>(drifting.poses.size());
+    for (std::size_t i = 0; i < drifting.poses.size(); ++i)
+      *drifting.poses[i].position_m += Eigen::Vector3d(1.2e-3, -5e-4, 2e-4) * static_cast<double>(i) / n;
+    EXPECT_TRUE(check_data(drifting).has(FindingKind::drift_without_times)) << right.robot.name;
+    for (std::size_t i = 0; i < drifting.poses.size(); ++i) drifting.poses[i].time_s = 10.0 * static_cast<double>(i);
+    EXPECT_FALSE(check_data(drifting).has(FindingKind::drift_without_times)) << right.robot.name;
+  }
+}
+
+}  // namespace
+}  // namespace demecal
