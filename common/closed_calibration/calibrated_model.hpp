@@ -89,6 +89,11 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
 /// The lowest and highest value (rad or m) of every joint over the same poses.
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration);
 
+/// Whether most poses were measured near the one before them, as along a path: their median step, of the joint that
+/// moves most, is less than a quarter of what the poses cover (random ones go over two thirds of it). Repeats are no
+/// steps.
+bool follow_each_other(const DataSet& data);
+
 /// From the validation poses, which must be unseen by the fit that `fitted` (of `robot`) comes from: split conformal
 /// prediction of scores |error| / deviation, the deviation that of posterior, noise and model error together. Poses are
 /// exchangeable but for repeats: those of one id share one vote. Scores beyond ten times their median are gross errors,

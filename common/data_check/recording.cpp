@@ -78,7 +78,7 @@ WrittenJoint written_joint(const Trial& trial, int joint) {
 /// them and much smaller across it: values that were commanded to whole steps leave none.
 std::optional<Finding> coarse_joint(const Trial& trial, const TrialFit& fit, int joint, const WrittenJoint& written,
                                     double finest) {
-  constexpr double kCoarser = 9.0, kAlongOverAcross = 2.0;
+  constexpr double kCoarser = 9.0, kAlongOverAcross = 1.5;
   if (written.step < kCoarser * finest) return std::nullopt;
   const Eigen::VectorXd column = joint_column(trial, fit, joint);
   double lever2 = 0.0, along2 = 0.0, across2 = 0.0, rows = 0.0;
@@ -105,15 +105,16 @@ std::optional<Finding> coarse_joint(const Trial& trial, const TrialFit& fit, int
                      joint + 1, written.text, millimetres(rounded_m))};
 }
 
-/// All joints written so coarsely that errors may be no more than that.
+/// All joints written so coarsely that errors may be no more than that. Pendants that show 0.01 deg are usual.
 std::optional<Finding> coarse_joints(const Trial& trial, const TrialFit& fit,
                                      const std::vector<WrittenJoint>& written) {
+  constexpr double kNotableRounding = 2e-4;  // of the reach
   double squares_m2 = 0.0;
   for (int joint = 0; joint < trial.chain.size(); ++joint)
     squares_m2 += joint_column(trial, fit, joint).squaredNorm() *
                   std::pow(kOfStep * written[static_cast<std::size_t>(joint)].step, 2);
   const double rounded_m = std::sqrt(squares_m2 / static_cast<double>(trial.rows.size()));
-  if (rounded_m < kRoundingShare * trial.reach_m() || !as_rounded(std::sqrt(3.0) * fit.deviation_m, rounded_m))
+  if (rounded_m < kNotableRounding * trial.reach_m() || !as_rounded(std::sqrt(3.0) * fit.deviation_m, rounded_m))
     return std::nullopt;
   const auto coarsest = std::ranges::max_element(written, {}, &WrittenJoint::step);
   return Finding{
@@ -247,7 +248,7 @@ std::optional<Finding> drift_without_times(const DataSet& data, const Trial& tri
 
 std::vector<Finding> find_recording_errors(const DataSet& data, const Trial& trial, const TrialFit& fit) {
   std::vector<Finding> findings;
-  if (trial.rows.size() < kFewestRounded || !fit.has_links()) return findings;
+  if (trial.rows.size() < kFewestRounded) return findings;
   const auto add = [&findings](std::optional<Finding> finding) {
     if (finding) findings.push_back(std::move(*finding));
     return finding.has_value();
@@ -263,6 +264,7 @@ std::vector<Finding> find_recording_errors(const DataSet& data, const Trial& tri
   for (int joint = 0; joint < trial.chain.size(); ++joint)
     one |= add(coarse_joint(trial, fit, joint, written[static_cast<std::size_t>(joint)], finest));
   if (!one) add(coarse_joints(trial, fit, written));
+  if (!fit.has_links()) return findings;
   const ProjectedColumns projected(trial, fit);
   if (!add(early_joints(data, trial, fit, projected))) add(drift_without_times(data, trial, projected, fit));
   return findings;

@@ -86,8 +86,8 @@ std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<Tr
 /// Joints that move by less than 2 degrees (5 mm) over the calibration poses, and measured points on a line or plane.
 std::vector<Finding> find_lacking_spread(const DataSet& data);
 
-/// What recording did to calibration rows, in the order of measuring, that `fit` with links shows: values rounded
-/// coarsely, joints read before the arm stood, points that wander where no times are given.
+/// What recording did to calibration rows, in the order of measuring, that `fit` shows: values rounded
+/// coarsely and, where links are fitted, joints read before the arm stood, points that wander where no times are given.
 std::vector<Finding> find_recording_errors(const DataSet& data, const Trial& trial, const TrialFit& fit);
 
 /// Of data without positions: joint angles said to be in degrees that are all as small as radians are.

@@ -190,8 +190,11 @@ double radius95_m(const PredictionInterval& interval, const Posterior& posterior
 
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                        const Stop& stop, double widened) {
-  const double posterior_m2 = pose_covariance(posterior, robot, stop).topLeftCorner<3, 3>().trace();
-  return widened * interval.quantile * std::sqrt(posterior_m2 + 3.0 * std::pow(interval.model_error_m, 2));
+  const double real_m2 =
+      pose_covariance(posterior, robot, stop).topLeftCorner<3, 3>().trace() + 3.0 * std::pow(interval.model_error_m, 2);
+  // The interval's quantile has the tails of measurement noise, and is told by few poses.
+  const double quantile = normal_length_quantile(3, kIntervalShare) / std::sqrt(3.0);
+  return widened * quantile * std::sqrt(real_m2);
 }
 
 void leave_out_motion_as_a_whole(const std::vector<Eigen::Vector3d>& points_m, std::vector<Eigen::MatrixXd>& rows) {

@@ -110,7 +110,7 @@ double radius95_m(const PredictionInterval& interval, const Posterior& posterior
                   const DataSet& data, const MeasuredPose& pose, double widened = 1.0);
 
 /// The radius about the predicted point of the robot's own tool that holds the real one 95 % of the time, m: without
-/// measurement noise.
+/// measurement noise, and of errors that are normal.
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                        const Stop& stop, double widened = 1.0);
 

@@ -134,27 +134,6 @@ std::string workspace_sentence(const WorkspaceEntry& error) {
       *error.rms_mm, *error.p95_mm, error.beside_base ? " and the arm as a whole shifted and turned to fit best" : "");
 }
 
-bool follow_each_other(const DataSet& data) {
-  constexpr double kNear = 0.25, kStandsStill = 1e-6;
-  constexpr std::size_t kFewest = 10;
-  if (data.poses.size() < kFewest) return false;
-  JointVector lower = data.poses.front().joints, upper = lower;
-  for (const MeasuredPose& pose : data.poses) {
-    lower = lower.cwiseMin(pose.joints);
-    upper = upper.cwiseMax(pose.joints);
-  }
-  const JointVector range = (upper - lower).cwiseMax(kStandsStill);
-  std::vector<double> steps;
-  for (std::size_t i = 1; i < data.poses.size(); ++i) {
-    const JointVector step = (data.poses[i].joints - data.poses[i - 1].joints).cwiseAbs();
-    if (step.maxCoeff() > kStandsStill) steps.push_back(step.cwiseQuotient(range).maxCoeff());
-  }
-  if (steps.empty()) return false;
-  const auto middle = steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2);
-  std::ranges::nth_element(steps, middle);
-  return *middle < kNear;
-}
-
 IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses) {
   IntervalCoverage coverage;
   std::vector<double> radii_mm;

@@ -79,11 +79,6 @@ std::optional<WorkspaceEntry> workspace_entry(const CalibratedModel& model, bool
 /// "0.21 mm rms, 0.4 mm for 95 % ...": the same for people.
 std::string workspace_sentence(const WorkspaceEntry& error);
 
-/// Whether most poses were measured near the one before them, as along a path: their median step, of the joint that
-/// moves most, is less than a quarter of what the poses cover (random ones go over two thirds of it). Repeats are no
-/// steps.
-bool follow_each_other(const DataSet& data);
-
 /// How many accept poses lie within their radius, of how many, and the radii's median, mm.
 struct IntervalCoverage {
   std::size_t poses = 0, inside = 0;

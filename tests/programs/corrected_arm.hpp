@@ -23,11 +23,19 @@ inline CommandModel unbounded_model(const Robot& nominal, CorrectedRobot identif
                        std::vector<double>(nominal.chain.joints.size(), std::numeric_limits<double>::infinity()));
 }
 
+/// Effects as arms have them: none of which it is said that it cannot be believed.
+inline std::vector<Effect> believable(std::vector<Effect> effects) {
+  for (Effect& effect : effects)
+    if (!law_of(effect).reversal(effect).empty())
+      for (double& value : effect.values) value = -value;
+  return effects;
+}
+
 /// Wrong in links, joints, tool and by effects, seen from an instrument somewhere.
 inline CommandModel erring_model(RandomStream& stream, const Robot& nominal) {
   CorrectedRobot identified = random_robot(stream, nominal.chain, 1e-3, 2e-3);
   identified.tools[""].translation() += Eigen::Vector3d(4e-4, -7e-4, 2e-4);
-  identified.effects = random_effects(nominal, stream, 2e-4, 1);
+  identified.effects = believable(random_effects(nominal, stream, 2e-4, 1));
   return unbounded_model(nominal, identified);
 }
 
