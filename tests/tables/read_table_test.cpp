@@ -119,7 +119,8 @@ TEST(ReadTable, TakesUnitsFromBracketsAndFromARowBelowTheNames) {
 }
 
 TEST(ReadTable, ConvertsEveryUnitOfHeadings) {
-  const CsvTable table = read_table("a [um];b [in];c [mrad];d [ms];e [gon]\n1500;2;3;250;200\n4;5;6;7;8\n", "p.txt").table;
+  const CsvTable table =
+      read_table("a [um];b [in];c [mrad];d [ms];e [gon]\n1500;2;3;250;200\n4;5;6;7;8\n", "p.txt").table;
   const auto value = [&](const char* name, Quantity quantity) {
     return TableColumn(table, {name, {}}, quantity, {}).number(table.rows[0]);
   };
