@@ -59,10 +59,9 @@ class DataChecker {
     for (Finding& finding : find_other_base(data_, fit_)) add(std::move(finding));
     for (Finding& finding : find_other_tools(trial_, target_of_, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
+    if (!check_.has(FindingKind::computed_positions))
+      for (Finding& finding : find_recording_errors(data_, trial_, fit_)) add(std::move(finding));
     check_rows();
-    if (check_.verdict() == DataVerdict::contradiction || check_.has(FindingKind::computed_positions))
-      return std::move(check_);
-    for (Finding& finding : find_recording_errors(data_, trial_, fit_)) add(std::move(finding));
     return std::move(check_);
   }
 

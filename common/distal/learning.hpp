@@ -32,6 +32,12 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
 DistalOutcome learn_in_rounds(const DistalIndex& index, const Preparation& preparation, const Job& job,
                               Evolver& evolver, const KnownFunctions& functions = std::nullopt);
 
+/// Fits joints to one another that learnt each by itself, as alternatives for the choice between corrections, over the
+/// calibration poses' index: what a model without corrections takes of all candidates together, amplitudes fitted (see
+/// accept_candidates); and, twice, what the choice then keeps, amplitudes fitted to one another.
+void add_choices_of_all_joints(const DataSet& data, const Preparation& preparation,
+                               std::vector<JointCandidates>& candidates);
+
 /// The outcome's candidates: of every training's joint what is best of each length among `trees`, by the table against
 /// what the final model leaves, and the model's own correction.
 void gather_candidates(const DistalIndex& index, const std::vector<JointTraining>& trainings,

@@ -162,6 +162,17 @@ SequenceOutcome DistalSequence::run() {
   return std::move(outcome_);
 }
 
+/// What the model takes of these candidates beside the corrections that it has, amplitudes of all of them fitted.
+CorrectedRobot fitted_together(const DistalIndex& index, CorrectedRobot robot,
+                               std::span<const JointCandidates> candidates) {
+  constexpr int kMostChoices = 4;  // each about the corrections of the one before
+  const double index_mm2 = index(robot);
+  DistalOutcome outcome{.robot = std::move(robot), .index_mm2 = index_mm2};
+  for (int i = 0; i < kMostChoices; ++i)
+    if (!accept_candidates(index, candidates, Amplitudes::fitted, 0, outcome)) break;
+  return std::move(outcome.robot);
+}
+
 }  // namespace
 
 SequenceOutcome learn_in_sequence(const DistalIndex& index, const Preparation& preparation, const Job& job,
@@ -177,6 +188,24 @@ DistalOutcome learn_distally(const DataSet& data, const Job& job, const Preparat
   evolver.add_effort(outcome.generations, outcome.evaluations);
   outcome.learnt.is_complete = !evolver.is_interrupted();
   return std::move(outcome.learnt);
+}
+
+void add_choices_of_all_joints(const DataSet& data, const Preparation& preparation,
+                               std::vector<JointCandidates>& candidates) {
+  constexpr int kChosenAnew = 2;
+  if (candidates.empty()) return;
+  const CorrectedRobot& declared = preparation.declared.robot;
+  const DistalIndex index(data, preparation.targets.poses, preparation.declared);
+  const std::vector<std::size_t> fitted = without_gross_errors(data, PoseSet::calibration, declared);
+  const std::vector<std::size_t> selecting = selection_poses(data, declared);
+  std::vector<JointCandidates> no_others;
+  for (const JointCandidates& joint : candidates) no_others.push_back({joint.training, {}});
+  const auto add = [&candidates](const CorrectedRobot& robot) {
+    for (JointCandidates& joint : candidates) joint.alternatives.push_back(robot.corrections[joint.training.joint]);
+  };
+  add(fitted_together(index, declared, candidates));
+  for (int i = 0; i < kChosenAnew; ++i)
+    add(fitted_together(index, select_corrections(data, fitted, selecting, declared, candidates).robot, no_others));
 }
 
 }  // namespace demecal::inline distal

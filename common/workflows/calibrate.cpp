@@ -135,7 +135,11 @@ std::vector<JointCandidates> learn_directly(const DataSet& data, const Job& job,
 /// What islands or this process evolved for every joint, by the job's method; the run's end is in `islands`.
 std::vector<JointCandidates> learn(const DataSet& data, const Job& job, IslandEvolver& islands,
                                    CalibrationObserver& observer, CalibrateResult& result) {
-  if (job.method != Method::distal) return learn_directly(data, job, islands, observer, result);
+  if (job.method != Method::distal) {
+    std::vector<JointCandidates> candidates = learn_directly(data, job, islands, observer, result);
+    add_choices_of_all_joints(data, result.preparation, candidates);
+    return candidates;
+  }
   DistalOutcome outcome = learn_distally(data, job, result.preparation, islands);
   result.distal = std::move(outcome.steps);
   if (job.corrections.sharing.functions > 0) result.functions = std::move(outcome.functions);
