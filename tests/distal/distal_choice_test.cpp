@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "calibration/calibration.hpp"
+#include "distal/learning.hpp"
 #include "distal/steps.hpp"
 #include "distal_arm.hpp"
 
@@ -78,6 +79,22 @@ TEST_P(DistalChoice, FitsWhatTheModelHasWhereNothingIsOffered) {
     ASSERT_EQ(before.is_neutral(), after.is_neutral());
     if (before.is_neutral()) continue;
     EXPECT_EQ(evolved_tree(before), evolved_tree(after));
+  }
+}
+
+TEST_P(DistalChoice, IsAnAlternativeForJointsThatLearntByThemselves) {
+  RandomStream random{53};
+  const std::vector<std::size_t> poses = preparation.targets.poses;
+  const auto left = [&](const std::vector<JointCandidates>& candidates) {
+    return index(select_corrections(data, poses, poses, declared(), candidates).robot);
+  };
+  for (int trial = 0; trial < 5; ++trial) {
+    const std::vector<JointCandidates> apart = true_but_for_size(random);
+    std::vector<JointCandidates> together = apart;
+    add_choices_of_all_joints(data, preparation, together);
+    for (std::size_t i = 0; i < apart.size(); ++i)
+      EXPECT_EQ(together[i].alternatives.size(), apart[i].alternatives.size() + 3);
+    EXPECT_LT(left(together), 0.1 * left(apart));
   }
 }
 
