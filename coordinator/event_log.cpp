@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 #include <system_error>
@@ -44,6 +46,24 @@ LoopNews::Verdict verdict_of(const Round& round) {
       break;
   }
   return LoopNews::Verdict::none;
+}
+
+double metres_from_mm(const std::optional<double>& value_mm) {
+  return 1e-3 * value_mm.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+CauseFound cause_found(const CauseEntry& entry, std::uint64_t calibration, std::uint32_t number) {
+  CauseFound found;
+  found.calibration = calibration;
+  found.number = number;
+  found.cause = entry.cause;
+  found.joint = static_cast<std::uint32_t>(entry.joint.value_or(0));
+  found.label = entry.name;
+  found.without_m = metres_from_mm(entry.without_mm);
+  found.with_m = metres_from_mm(entry.with_mm);
+  found.share_of_error = entry.share_of_error.value_or(std::numeric_limits<double>::quiet_NaN());
+  found.advice = entry.advice;
+  return found;
 }
 
 /// What a file holds that is gone on with.
@@ -184,6 +204,22 @@ void EventLog::on_round(const Round& round, const Robot& described) {
   publish(news);
 }
 
+void EventLog::tell_of(const Report& report) {
+  for (std::size_t i = 0; i < report.causes.size(); ++i) {
+    publish(cause_found(report.causes[i], stage_.calibration, static_cast<std::uint32_t>(i + 1)));
+  }
+  FinalFigures figures;
+  figures.calibration = stage_.calibration;
+  figures.job = stage_.job;
+  figures.causes = static_cast<std::uint32_t>(report.causes.size());
+  figures.effects = static_cast<std::uint32_t>(std::ranges::count_if(report.rounds, &RoundEntry::added));
+  figures.validation_before_m = metres_from_mm(report.before.validation.rms_mm);
+  figures.validation_after_m = metres_from_mm(report.after.validation.rms_mm);
+  figures.accept_before_m = metres_from_mm(report.before.accept.rms_mm);
+  figures.accept_after_m = metres_from_mm(report.after.accept.rms_mm);
+  publish(figures);
+}
+
 void EventLog::finish(LoopNews::Stage stage, const std::string& text) {
   publish_stage(stage, text);
   reporter_->flush(kReporterTimeout);
@@ -195,9 +231,9 @@ void EventLog::publish_stage(LoopNews::Stage stage, const std::string& text) {
   publish(stage_);
 }
 
-void EventLog::publish(const LoopNews& news) {
-  file_.note(news);
-  reporter_->publish(news);
+void EventLog::publish(const Message& message) {
+  file_.note(message);
+  reporter_->publish(message);
 }
 
 }  // namespace demecal

@@ -14,6 +14,7 @@
 #include "diagnosis/outcome.hpp"
 #include "monitor/events.hpp"
 #include "protocol/messages.hpp"
+#include "report/report.hpp"
 #include "scheduling/run_state.hpp"
 #include "transport/transport.hpp"
 #include "workflows/workflows.hpp"
@@ -59,12 +60,14 @@ class EventLog final : public CalibrationObserver {
   void on_worker(const WorkerStatus& status) override;
   void on_lost(const std::string& worker) override { file_.note(WorkerLost{worker}); }
   void on_round(const Round& round, const Robot& described) override;
+  /// What was found, before the last stage.
+  void tell_of(const Report& report);
   /// The last stage, with what is to be said of it.
   void finish(LoopNews::Stage stage, const std::string& text);
 
  private:
   void publish_stage(LoopNews::Stage stage, const std::string& text);
-  void publish(const LoopNews& news);
+  void publish(const Message& message);
 
   EventFile file_;
   std::unique_ptr<Transport> reporter_;

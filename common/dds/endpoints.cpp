@@ -117,6 +117,8 @@ fastdds::TypeSupport topic_type(Topic topic) {
   if (topic == Topic::progress) return message_type<PlacedProgress>("demecal::wire::PlacedProgress");
   if (topic == Topic::control) return message_type<Control>("demecal::wire::Control");
   if (topic == Topic::loop) return message_type<LoopNews>("demecal::wire::LoopNews");
+  if (topic == Topic::cause) return message_type<CauseFound>("demecal::wire::CauseFound");
+  if (topic == Topic::final_figures) return message_type<FinalFigures>("demecal::wire::FinalFigures");
   return message_type<WorkerStatus>("demecal::wire::WorkerStatus");
 }
 
@@ -142,6 +144,10 @@ std::string topic_name(Topic topic, std::uint32_t joint) {
       return "demecal/8/outcome";
     case Topic::loop:
       return "demecal/8/loop";
+    case Topic::cause:
+      return "demecal/8/cause";
+    case Topic::final_figures:
+      return "demecal/8/final_figures";
     case Topic::worker:
       break;
   }

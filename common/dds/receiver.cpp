@@ -64,7 +64,7 @@ class Delivery : public fastdds::DataReaderListener {
     const ParticipantId source = participant_of(writer);
     if constexpr (requires { inbox_.owners.receive(source, "", std::move(message), Time()); }) {
       inbox_.owners.receive(source, inbox_.name_of(source), std::move(message), std::chrono::steady_clock::now());
-    } else if constexpr (std::is_same_v<Plain, LoopNews>) {
+    } else if constexpr (requires { inbox_.reporters.receive(writer, std::move(message)); }) {
       if (!inbox_.reporters.receive(writer, std::move(message)))
         reject(writer, "news of a calibration that is another's");
     } else if (!may_publish_for(source, message)) {
@@ -218,6 +218,10 @@ std::unique_ptr<fastdds::DataReaderListener> make_receiver(Topic topic, Inbox& i
       return std::make_unique<PartsReceiver<Outcome>>(inbox);
     case Topic::loop:
       return std::make_unique<LoopReceiver>(inbox);
+    case Topic::cause:
+      return std::make_unique<Receiver<CauseFound>>(inbox);
+    case Topic::final_figures:
+      return std::make_unique<Receiver<FinalFigures>>(inbox);
     case Topic::worker:
       break;
   }

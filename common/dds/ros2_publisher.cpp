@@ -60,8 +60,10 @@ constexpr Ros2Topic kRos2Topics[] = {{"rt/demecal/worker", "demecal::msg::dds_::
                                      {"rt/demecal/run_state", "demecal::msg::dds_::Control_"},
                                      {"rt/demecal/progress", "demecal::msg::dds_::Progress_"},
                                      {"rt/demecal/loop", "demecal::msg::dds_::LoopNews_"},
+                                     {"rt/demecal/cause", "demecal::msg::dds_::CauseFound_"},
+                                     {"rt/demecal/final_figures", "demecal::msg::dds_::FinalFigures_"},
                                      {"rt/demecal/events", "std_msgs::msg::dds_::String_"}};
-constexpr std::size_t kEvents = 4;
+constexpr std::size_t kEvents = 6;
 
 /// The place of a kind of message in kRos2Topics; kEvents where it has no topic of its own.
 template <class Plain>
@@ -70,6 +72,8 @@ constexpr std::size_t topic_place() {
   if constexpr (std::is_same_v<Plain, Control>) return 1;
   if constexpr (std::is_same_v<Plain, Progress>) return 2;
   if constexpr (std::is_same_v<Plain, LoopNews>) return 3;
+  if constexpr (std::is_same_v<Plain, CauseFound>) return 4;
+  if constexpr (std::is_same_v<Plain, FinalFigures>) return 5;
   return kEvents;
 }
 

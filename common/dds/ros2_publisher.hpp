@@ -10,8 +10,8 @@
 
 namespace demecal::inline dds {
 
-/// Publishes on rt/demecal/worker, run_state, progress and loop (idl/ros2.idl; ROS 2 packages are built of
-/// configs/ros2/demecal) and on rt/demecal/events, as std_msgs/String, each event as a line of JSON. Reliable,
+/// Publishes on rt/demecal/worker, run_state, progress, loop, cause and final_figures (idl/ros2.idl; ROS 2 packages are
+/// built of configs/ros2/demecal) and on rt/demecal/events, as std_msgs/String, each event as a line of JSON. Reliable,
 /// transient local, and of each topic the last kRos2Depth samples: no reader holds it up.
 class Ros2Publisher {
  public:

@@ -72,20 +72,40 @@ void stage_fields(auto& visit, Like<LoopNews> auto& m) {
         OneOf{m.stage, kStages}, "text", Shown{m.text});
 }
 
+/// A joint that is 0 where there is none, and null in the line.
+template <class Visit>
+void joint_field(Visit& visit, auto& place) {
+  std::optional<std::uint32_t> joint;
+  if (place != 0) joint = place;
+  visit("joint", joint);
+  if constexpr (kReads<Visit>) place = joint.value_or(0);
+}
+
 template <class Visit>
 void round_fields(Visit& visit, Like<LoopNews> auto& m) {
   std::uint32_t round = m.round == 0 ? 0 : m.round - 1;
   visit("calibration", AsText{m.calibration}, "job", Shown{m.job}, "round", FromOne{round});
-  std::optional<std::uint32_t> joint;
-  if (m.joint != 0) joint = m.joint;
-  visit("verdict", OneOf{m.verdict, kVerdicts}, "kind", Shown{m.kind}, "joint", joint, "label", Shown{m.label}, "text",
-        Shown{m.text});
+  visit("verdict", OneOf{m.verdict, kVerdicts}, "kind", Shown{m.kind});
+  joint_field(visit, m.joint);
+  visit("label", Shown{m.label}, "text", Shown{m.text});
   visit("validation_before_mm", FigureOr{m.validation_before_m, kUnknown, 1e3}, "validation_after_mm",
         FigureOr{m.validation_after_m, kUnknown, 1e3});
-  if constexpr (kReads<Visit>) {
-    m.round = round + 1;
-    m.joint = joint.value_or(0);
-  }
+  if constexpr (kReads<Visit>) m.round = round + 1;
+}
+
+void fields(auto& visit, Like<CauseFound> auto& m) {
+  visit("calibration", AsText{m.calibration}, "number", m.number, "cause", Shown{m.cause});
+  joint_field(visit, m.joint);
+  visit("label", Shown{m.label}, "without_mm", FigureOr{m.without_m, kUnknown, 1e3}, "with_mm",
+        FigureOr{m.with_m, kUnknown, 1e3}, "share_of_error", FigureOr{m.share_of_error, kUnknown}, "advice",
+        Shown{m.advice});
+}
+
+void fields(auto& visit, Like<FinalFigures> auto& m) {
+  visit("calibration", AsText{m.calibration}, "job", Shown{m.job}, "causes", m.causes, "effects", m.effects);
+  visit("validation_before_mm", FigureOr{m.validation_before_m, kUnknown, 1e3}, "validation_after_mm",
+        FigureOr{m.validation_after_m, kUnknown, 1e3}, "accept_before_mm", FigureOr{m.accept_before_m, kUnknown, 1e3},
+        "accept_after_mm", FigureOr{m.accept_after_m, kUnknown, 1e3});
 }
 
 namespace {
@@ -151,6 +171,8 @@ constexpr EventKind kEventKinds[] = {
        LoopNews news;
        round_fields(describe, news);
      }},
+    plain_kind<CauseFound>("cause"),
+    plain_kind<FinalFigures>("final_figures"),
     plain_kind<CalibrationLost>("calibration_lost")};
 
 std::optional<Event> read(const JsonValue& json) {

@@ -36,6 +36,9 @@ Json calibration_json(const WatchedCalibration& calibration) {
   json["lost"] = calibration.lost;
   json["rounds"] = Json::array();
   for (const auto& [number, round] : calibration.rounds) json["rounds"].push_back(members_of(round));
+  json["causes"] = Json::array();
+  for (const auto& [number, cause] : calibration.causes) json["causes"].push_back(members_of(cause));
+  json["final_figures"] = calibration.figures ? members_of(*calibration.figures) : Json();
   return json;
 }
 

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kMostKept = 8;  // runs, and calibrations
 constexpr std::size_t kMostRounds = 1000;
+constexpr std::size_t kMostCausesKept = 1000;
 constexpr std::size_t kMostWorkers = 4096;
 constexpr std::size_t kMostHappenings = 8;
 
@@ -133,6 +134,16 @@ void Watched::note(const LoopNews& news, double now_s) {
   if (news.run != 0 && std::ranges::find(runs, news.run) == runs.end() && runs.size() < kMostRounds) {
     calibration.runs.push_back(news.run);
   }
+}
+
+void Watched::note(const CauseFound& cause, double now_s) {
+  if (cause.calibration == 0 || cause.number == 0) return;
+  auto& causes = calibration_of(cause.calibration, now_s).causes;
+  if (causes.size() < kMostCausesKept || causes.contains(cause.number)) causes[cause.number] = cause;
+}
+
+void Watched::note(const FinalFigures& figures, double now_s) {
+  if (figures.calibration != 0) calibration_of(figures.calibration, now_s).figures = figures;
 }
 
 void Watched::note(const CalibrationLost& lost, double now_s) {

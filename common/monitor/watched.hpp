@@ -47,10 +47,12 @@ struct WatchedWorker {
 struct WatchedCalibration {
   std::uint64_t order = 0;
   double seen_s = 0.0;
-  bool lost = false;                         ///< its coordinator is dead
-  LoopNews stage;                            ///< round 0
-  std::map<std::uint32_t, LoopNews> rounds;  ///< by number
-  std::vector<RunId> runs;                   ///< its evolutions that were seen, in order
+  bool lost = false;                             ///< its coordinator is dead
+  LoopNews stage;                                ///< round 0
+  std::map<std::uint32_t, LoopNews> rounds;      ///< by number
+  std::vector<RunId> runs;                       ///< its evolutions that were seen, in order
+  std::map<std::uint32_t, CauseFound> causes{};  ///< by number
+  std::optional<FinalFigures> figures{};
 
   bool is_live() const { return !lost && !is_over(stage.stage); }
 };
@@ -90,6 +92,8 @@ class Watched {
   void note(const WorkerStatus& status, double now_s);
   void note(const WorkerLost& lost, double now_s);
   void note(const LoopNews& news, double now_s);
+  void note(const CauseFound& cause, double now_s);
+  void note(const FinalFigures& figures, double now_s);
   void note(const CalibrationLost& lost, double now_s);
   WatchedRun& run_of(RunId run, double now_s);
   WatchedCalibration& calibration_of(std::uint64_t calibration, double now_s);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -14,6 +15,10 @@
 #include "protocol/messages.hpp"
 
 namespace demecal::inline protocol {
+
+/// `M` is `Message`, constant or not.
+template <class M, class Message>
+concept Fields = std::same_as<std::remove_const_t<M>, Message>;
 
 // A field of a list is a reference to its value, within one or more of these where it is of a special kind.
 enum class FieldKind { key, required, from_one, octet };

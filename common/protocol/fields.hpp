@@ -1,7 +1,6 @@
 // The fields of every message, listed once: how it travels, is kept in a journal and is weighed follows from its list.
 #pragma once
 
-#include <concepts>
 #include <cstdint>
 #include <type_traits>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "fitness/fitness.hpp"
 #include "fitness/parameters.hpp"
 #include "protocol/field_kinds.hpp"
+#include "protocol/finding_fields.hpp"
 #include "protocol/messages.hpp"
 
 namespace demecal::inline protocol {
@@ -27,10 +27,6 @@ struct FlatFormula {
   std::vector<std::uint8_t> variables;
   std::vector<double> constants;
 };
-
-/// `M` is `Message`, constant or not.
-template <class M, class Message>
-concept Fields = std::same_as<std::remove_const_t<M>, Message>;
 
 template <class Visitor, Fields<MessagePart> M>
 void visit_fields(Visitor& visit, M& m) {

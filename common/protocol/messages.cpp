@@ -15,6 +15,8 @@ struct KeyOf {
   TopicKey operator()(const Outcome& m) const { return {Topic::outcome, m.run, m.island, {}}; }
   TopicKey operator()(const WorkerStatus& m) const { return {Topic::worker, 0, {}, m.worker}; }
   TopicKey operator()(const LoopNews& m) const { return {Topic::loop, 0, {}, {}, m.calibration, m.round}; }
+  TopicKey operator()(const CauseFound& m) const { return {Topic::cause, 0, {}, {}, m.calibration, m.number}; }
+  TopicKey operator()(const FinalFigures& m) const { return {Topic::final_figures, 0, {}, {}, m.calibration}; }
   TopicKey operator()(const WorkerLost& m) const {
     DEMECAL_CHECK(false, "WorkerLost is never sent; worker=" << m.worker);
     return {};
@@ -24,6 +26,11 @@ struct KeyOf {
     return {};
   }
 };
+
+/// What a reporter says of a calibration, which has no run.
+bool is_of_calibration(Topic topic) {
+  return topic == Topic::loop || topic == Topic::cause || topic == Topic::final_figures;
+}
 
 }  // namespace
 
@@ -59,9 +66,9 @@ bool writes(Role role, Topic topic) {
     case Role::coordinator:
       return of_coordinator;
     case Role::worker:
-      return !of_coordinator && topic != Topic::loop;
+      return !of_coordinator && !is_of_calibration(topic);
     case Role::reporter:
-      return topic == Topic::loop || topic == Topic::progress;
+      return is_of_calibration(topic) || topic == Topic::progress;
     case Role::watcher:
       break;
   }
@@ -87,11 +94,11 @@ bool reads_reliably(Role role, Topic topic) {
 }
 
 bool is_awaited(Topic topic) {
-  return topic != Topic::data && topic != Topic::progress && topic != Topic::loop;
+  return topic != Topic::data && topic != Topic::progress && !is_of_calibration(topic);
 }
 
 bool ends_with_run(Topic topic) {
-  return topic != Topic::control && topic != Topic::worker && topic != Topic::loop;
+  return topic != Topic::control && topic != Topic::worker && !is_of_calibration(topic);
 }
 
 bool is_large(Topic topic) {

@@ -19,6 +19,7 @@
 #include "evolution/population.hpp"
 #include "fitness/fitness.hpp"
 #include "fitness/parameters.hpp"
+#include "protocol/findings.hpp"
 
 namespace demecal::inline protocol {
 
@@ -218,21 +219,22 @@ struct PlacedProgress {
 };
 
 using Message = std::variant<CalibrationData, IslandTask, Migrants, Progress, Checkpoint, Outcome, WorkerStatus,
-                             Control, LoopNews, WorkerLost, CalibrationLost>;
+                             Control, LoopNews, CauseFound, FinalFigures, WorkerLost, CalibrationLost>;
 
 /// Whether messages of this type travel; the others are made by the transport that delivers them.
 template <class Plain>
 inline constexpr bool kTravels = !std::is_same_v<Plain, WorkerLost> && !std::is_same_v<Plain, CalibrationLost>;
 
 /// What a participant reads and writes: coordinators write data, tasks and control and read the rest but migrants;
-/// workers the reverse, with migrants both ways; a reporter writes a calibration's loop news, and progress where no
-/// worker will, and reads nothing; watchers read data, control, progress, worker status and loop news and write
-/// nothing.
+/// workers the reverse, with migrants both ways; a reporter writes a calibration's loop news, causes and final figures,
+/// and progress where no worker will, and reads nothing; watchers read what it writes, data, control and worker status,
+/// and write nothing.
 enum class Role { coordinator, worker, reporter, watcher };
 
-enum class Topic { data, task, control, migrants, progress, checkpoint, outcome, worker, loop };
-inline constexpr std::array kTopics{Topic::data,       Topic::task,    Topic::control, Topic::migrants, Topic::progress,
-                                    Topic::checkpoint, Topic::outcome, Topic::worker,  Topic::loop};
+enum class Topic { data, task, control, migrants, progress, checkpoint, outcome, worker, loop, cause, final_figures };
+inline constexpr std::array kTopics{Topic::data,     Topic::task,       Topic::control,      Topic::migrants,
+                                    Topic::progress, Topic::checkpoint, Topic::outcome,      Topic::worker,
+                                    Topic::loop,     Topic::cause,      Topic::final_figures};
 
 /// Whether a message travels; the others are made by the transport that delivers them.
 bool is_sent(const Message& message);
@@ -253,7 +255,7 @@ struct TopicKey {
   IslandKey island;
   std::string worker;
   std::uint64_t calibration = 0;
-  std::uint32_t round = 0;
+  std::uint32_t number = 0;  ///< of a round or cause
   auto operator<=>(const TopicKey&) const = default;
 };
 TopicKey key_of(const Message& message);

@@ -116,6 +116,24 @@ bool CalibrationPresence::receive(const WriterId& writer, LoopNews news) {
   return mailbox_.put(participant_of(writer), std::move(news));
 }
 
+bool CalibrationPresence::receive(const WriterId& writer, CauseFound cause) {
+  return receive_finding(writer, std::move(cause));
+}
+
+bool CalibrationPresence::receive(const WriterId& writer, FinalFigures figures) {
+  return receive_finding(writer, std::move(figures));
+}
+
+template <class Finding>
+bool CalibrationPresence::receive_finding(const WriterId& writer, Finding finding) {
+  const ParticipantId source = participant_of(writer);
+  const std::lock_guard lock(mutex_);
+  const bool is_anothers = std::ranges::any_of(calibrations_, [&](const auto& other) {
+    return participant_of(other.first) != source && other.second.number == finding.calibration;
+  });
+  return !is_anothers && mailbox_.put(source, std::move(finding));
+}
+
 void CalibrationPresence::departed(const WriterId& writer) {
   const std::lock_guard lock(mutex_);
   const auto gone = calibrations_.extract(writer);

@@ -77,6 +77,9 @@ class CalibrationPresence {
 
   /// News were read: put, unless another writer publishes for that calibration; whether they were.
   bool receive(const WriterId& writer, LoopNews news);
+  /// What was found was read: put, unless another participant publishes news for that calibration; whether it was.
+  bool receive(const WriterId& writer, CauseFound cause);
+  bool receive(const WriterId& writer, FinalFigures figures);
   /// The writer is gone for good: its calibration is lost, unless its last stage says that it is over.
   void departed(const WriterId& writer);
 
@@ -86,9 +89,12 @@ class CalibrationPresence {
     bool is_over = false;
   };
 
+  template <class Finding>
+  bool receive_finding(const WriterId& writer, Finding finding);
+
   Mailbox& mailbox_;
   std::mutex mutex_;
-  std::map<WriterId, Calibration> calibrations_;
+  std::map<WriterId, Calibration> calibrations_;  ///< by their writers of news
 };
 
 }  // namespace demecal::inline transport

@@ -241,15 +241,14 @@ ExitCode run_calibrate(CalibrateRequest request) {
     return ExitCode::no_worker;
   }
   const Report report = write_calibration(request, data, result);
-  if (end == RunEnd::interrupted) {
-    event_log.finish(LoopNews::Stage::interrupted, "interrupted");
-  } else {
-    event_log.finish(LoopNews::Stage::finished, finished_with(report));
-  }
+  const bool is_interrupted = end == RunEnd::interrupted;
+  event_log.tell_of(report);
+  event_log.finish(is_interrupted ? LoopNews::Stage::interrupted : LoopNews::Stage::finished,
+                   is_interrupted ? "interrupted" : finished_with(report));
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
-             effort_text(job, result.facts), end == RunEnd::interrupted ? "interrupted; what was reached" : "results",
-             request.out, has_islands(job.method) ? ", history.csv, fronts.csv" : "");
-  if (end == RunEnd::interrupted) {
+             effort_text(job, result.facts), is_interrupted ? "interrupted; what was reached" : "results", request.out,
+             has_islands(job.method) ? ", history.csv, fronts.csv" : "");
+  if (is_interrupted) {
     fmt::print("  {}\n", resuming(request));
     return ExitCode::interrupted;
   }

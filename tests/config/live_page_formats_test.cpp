@@ -39,10 +39,13 @@ void leave_out_those_of(const std::string& word, const std::string& at, std::set
 TEST(LivePageFormats, StateAndFiguresHaveTheKeysOfThePage) {
   PacedEvents events(0.5);
   for (const Message& message : made_up_messages(made_up_data())) events.take(message, 1.0);
+  for (const Message& found : made_up_findings()) events.take(found, 1.0);
   std::set<std::string> keys;
   collect_keys(Told::parse(state_json(events.watched(), 2.0, "domain 3")), "", keys);
   leave_out_those_of("stage", "calibration.", keys);
   leave_out_those_of("round", "calibration.rounds[].", keys);
+  leave_out_those_of("cause", "calibration.causes[].", keys);
+  leave_out_those_of("final_figures", "calibration.final_figures.", keys);
   leave_out_those_of("run", "run.", keys);
   leave_out_those_of("progress", "run.islands[].", keys);
   leave_out_those_of("worker", "workers[].", keys);

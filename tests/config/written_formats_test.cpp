@@ -163,10 +163,10 @@ TEST(WrittenFormats, HistoriesHaveTheColumnsOfThePage) {
 
 TEST(WrittenFormats, EventsHaveTheKeysOfThePage) {
   std::vector<Message> messages = made_up_messages(made_up_data());
-  messages.emplace_back(made_up_round(1));
   messages.emplace_back(WorkerLost{"cell-a"});
   messages.emplace_back(Control{kRun, Control::State::finished, "note"});
   messages.emplace_back(CalibrationLost{kCalibration});
+  for (const Message& found : made_up_findings()) messages.push_back(found);
   std::vector<std::string> lines{first_event_line()};
   for (const Message& message : messages) lines.push_back(event_line(message, 1.0));
   std::set<std::string> paths;

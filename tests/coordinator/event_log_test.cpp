@@ -4,13 +4,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <filesystem>
+#include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "coordinator/event_log.hpp"
 #include "errors/input_error.hpp"
 #include "monitor/watched.hpp"
+#include "report/report.hpp"
 #include "scheduling/in_memory_run.hpp"
 #include "yaml/files.hpp"
 
@@ -107,6 +112,61 @@ TEST_F(EventFiles, TellOfARunThatWasBrokenOffAndResumed) {
   EXPECT_EQ(live.calibration()->stage.text, "finished");
   ASSERT_NE(live.run(), nullptr);
   EXPECT_EQ(live.run()->islands.size(), 1u) << "what no worker will tell again";
+}
+
+/// Two causes, of which much or little is known, and no accept poses.
+Report made_up_report() {
+  Report report;
+  report.causes.resize(2);
+  CauseEntry& backlash = report.causes[0];
+  backlash.cause = "lost_motion";
+  backlash.joint = 2;
+  backlash.name = "lost motion of joint 2";
+  backlash.without_mm = 0.5;
+  backlash.advice = "a";
+  report.causes[1].name = "heat";
+  report.causes[1].with_mm = 0.25;
+  report.causes[1].share_of_error = 0.125;
+  report.rounds.resize(3);
+  report.rounds[0].verdict = report.rounds[1].verdict = "added";
+  report.rounds[2].verdict = "rejected";
+  report.before.validation.rms_mm = 0.5;
+  report.after.validation.rms_mm = 0.25;
+  return report;
+}
+
+TEST_F(EventFiles, TellOfEveryCauseAndTheFinalFiguresBeforeTheEnd) {
+  const auto exchange = make_exchange();
+  EventLog log(folder, false, "job", join(exchange, Role::reporter, "reporter"));
+  log.tell_of(made_up_report());
+  log.finish(LoopNews::Stage::finished, "finished");
+  const auto late = join(exchange, Role::watcher, "late");
+  std::vector<std::string> heard, recorded;
+  std::vector<Message> messages;
+  while (auto message = late->receive(std::chrono::milliseconds{0})) {
+    heard.push_back(event_line(*message, 0.0));
+    messages.push_back(std::move(*message));
+  }
+  for (const Message& message : messages_in(path)) recorded.push_back(event_line(message, 0.0));
+  recorded.erase(recorded.begin());  // the first stage: the last one takes its place for who comes late
+  EXPECT_EQ(recorded, heard);
+  ASSERT_EQ(messages.size(), 4u);
+  const std::uint64_t calibration = std::get<LoopNews>(messages[3]).calibration;
+  const auto backlash = std::get<CauseFound>(messages[0]), heat = std::get<CauseFound>(messages[1]);
+  const auto figures = std::get<FinalFigures>(messages[2]);
+  EXPECT_TRUE(std::isnan(backlash.with_m) && std::isnan(backlash.share_of_error) && std::isnan(heat.without_m));
+  CauseFound known = backlash;
+  known.with_m = known.share_of_error = 0.0;
+  EXPECT_EQ(known, (CauseFound{calibration, 1, "lost_motion", 2, "lost motion of joint 2", 0.5e-3, 0.0, 0.0, "a"}));
+  EXPECT_EQ(heat.calibration, calibration);
+  EXPECT_EQ(heat.number, 2u);
+  EXPECT_EQ(heat.joint, 0u);
+  EXPECT_EQ(heat.with_m, 0.25e-3);
+  EXPECT_EQ(heat.share_of_error, 0.125);
+  EXPECT_TRUE(std::isnan(figures.accept_before_m) && std::isnan(figures.accept_after_m));
+  FinalFigures of_validation = figures;
+  of_validation.accept_before_m = of_validation.accept_after_m = 0.0;
+  EXPECT_EQ(of_validation, (FinalFigures{calibration, "job", 2, 2, 0.5e-3, 0.25e-3, 0.0, 0.0}));
 }
 
 TEST_F(EventFiles, TellWhoComesLateWhatARunReachedWhoseWorkersAreGone) {

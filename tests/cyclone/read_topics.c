@@ -26,6 +26,16 @@ static void print_loop(const char* topic, const void* sample) {
   printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%d\t%s\t%s\t%s\t%" PRIu32 "\t%.17g\n", topic, s->calibration, s->round,
          (int)s->stage, s->job, s->text, s->label, s->joint, s->validation_after_m);
 }
+static void print_cause(const char* topic, const void* sample) {
+  const demecal_wire_CauseFound* s = sample;
+  printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%s\t%" PRIu32 "\t%s\t%.17g\t%.17g\t%.17g\t%s\n", topic, s->calibration,
+         s->number, s->cause, s->joint, s->label, s->without_m, s->with_m, s->share_of_error, s->advice);
+}
+static void print_final_figures(const char* topic, const void* sample) {
+  const demecal_wire_FinalFigures* s = sample;
+  printf("%s\t%" PRIu64 "\t%s\t%" PRIu32 "\t%" PRIu32 "\t%.17g\t%.17g\t%.17g\t%.17g\n", topic, s->calibration, s->job,
+         s->causes, s->effects, s->validation_before_m, s->validation_after_m, s->accept_before_m, s->accept_after_m);
+}
 static void print_progress(const char* topic, const void* sample) {
   const demecal_wire_PlacedProgress* s = sample;
   const demecal_wire_Progress* p = &s->progress;
@@ -46,6 +56,16 @@ static void print_ros2_loop(const char* topic, const void* sample) {
   const demecal_msg_dds__LoopNews_* s = sample;
   printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%" PRIu32 "\t%s\t%s\t%s\t%" PRIu32 "\t%.17g\n", topic, s->calibration, s->round,
          s->stage, s->job, s->text, s->label, s->joint, s->validation_after_m);
+}
+static void print_ros2_cause(const char* topic, const void* sample) {
+  const demecal_msg_dds__CauseFound_* s = sample;
+  printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%s\t%" PRIu32 "\t%s\t%.17g\t%.17g\t%.17g\t%s\n", topic, s->calibration,
+         s->number, s->cause, s->joint, s->label, s->without_m, s->with_m, s->share_of_error, s->advice);
+}
+static void print_ros2_final_figures(const char* topic, const void* sample) {
+  const demecal_msg_dds__FinalFigures_* s = sample;
+  printf("%s\t%" PRIu64 "\t%s\t%" PRIu32 "\t%" PRIu32 "\t%.17g\t%.17g\t%.17g\t%.17g\n", topic, s->calibration, s->job,
+         s->causes, s->effects, s->validation_before_m, s->validation_after_m, s->accept_before_m, s->accept_after_m);
 }
 static void print_ros2_progress(const char* topic, const void* sample) {
   const demecal_msg_dds__Progress_* p = sample;
@@ -68,10 +88,14 @@ static struct Watched watched[] = {
     {"demecal/8/worker", &demecal_wire_WorkerStatus_desc, print_worker, 0},
     {"demecal/8/control", &demecal_wire_Control_desc, print_control, 0},
     {"demecal/8/loop", &demecal_wire_LoopNews_desc, print_loop, 0},
+    {"demecal/8/cause", &demecal_wire_CauseFound_desc, print_cause, 0},
+    {"demecal/8/final_figures", &demecal_wire_FinalFigures_desc, print_final_figures, 0},
     {"demecal/8/progress", &demecal_wire_PlacedProgress_desc, print_progress, 0},
     {"rt/demecal/worker", &demecal_msg_dds__WorkerStatus__desc, print_ros2_worker, 0},
     {"rt/demecal/run_state", &demecal_msg_dds__Control__desc, print_ros2_control, 0},
     {"rt/demecal/loop", &demecal_msg_dds__LoopNews__desc, print_ros2_loop, 0},
+    {"rt/demecal/cause", &demecal_msg_dds__CauseFound__desc, print_ros2_cause, 0},
+    {"rt/demecal/final_figures", &demecal_msg_dds__FinalFigures__desc, print_ros2_final_figures, 0},
     {"rt/demecal/progress", &demecal_msg_dds__Progress__desc, print_ros2_progress, 0},
     {"rt/demecal/events", &std_msgs_msg_dds__String__desc, print_line, 0},
 };

@@ -76,6 +76,25 @@ TEST_P(Transports, GiveWatchersWhoComeLateDataProgressAndNews) {
   expect_exactly(*watcher, told);
 }
 
+TEST_P(Transports, GiveWatchersWhoComeLateEveryCauseAndTheFinalFigures) {
+  const auto reporter = network->join(Role::reporter, "reporter");
+  RandomMessages random(53);
+  LoopNews news = random.news();
+  std::vector<Message> told;
+  for (std::uint32_t number = 1; number <= 30; ++number) {
+    CauseFound cause = random.cause();
+    cause.calibration = news.calibration;
+    cause.number = number;
+    told.push_back(cause);
+  }
+  FinalFigures figures = random.figures();
+  figures.calibration = news.calibration;
+  told.insert(told.end(), {figures, news});
+  for (const Message& message : told) reporter->publish(message);
+  const auto watcher = network->join(Role::watcher, "watcher");
+  expect_exactly(*watcher, told);
+}
+
 TEST_P(Transports, GiveWatchersWhatWorkersRepeat) {
   const auto worker = network->join(Role::worker, "worker");
   const auto watcher = network->join(Role::watcher, "watcher");

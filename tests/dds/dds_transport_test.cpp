@@ -193,6 +193,8 @@ TEST(Dds, KeysAreTheSamplesOwnWhateverOtherThreadsDo) {
                                   PlacedProgress{"one", 2, false, {}});
   expect_own_keys<Control>(Topic::control, random.control(), random.control());
   expect_own_keys<LoopNews>(Topic::loop, random.news(), random.news());
+  expect_own_keys<CauseFound>(Topic::cause, random.cause(), random.cause());
+  expect_own_keys<FinalFigures>(Topic::final_figures, random.figures(), random.figures());
   expect_own_keys<WorkerStatus>(Topic::worker, status_of("one"), status_of("two"));
 }
 

@@ -56,11 +56,14 @@ TEST(Types, AreThoseOfTheDocument) {
     expect_to_be<wire::WorkerStatusPubSubType>(Topic::worker, random.status());
     expect_to_be<wire::ControlPubSubType>(Topic::control, random.control());
     expect_to_be<wire::LoopNewsPubSubType>(Topic::loop, random.news());
+    expect_to_be<wire::CauseFoundPubSubType>(Topic::cause, random.cause());
+    expect_to_be<wire::FinalFiguresPubSubType>(Topic::final_figures, random.figures());
   }
 }
 
 TEST(Types, MakeNothingOfBytesThatAreNoSample) {
-  for (const Topic topic : {Topic::control, Topic::loop, Topic::worker, Topic::progress, Topic::task}) {
+  for (const Topic topic :
+       {Topic::control, Topic::loop, Topic::cause, Topic::final_figures, Topic::worker, Topic::progress, Topic::task}) {
     const eprosima::fastdds::dds::TypeSupport type = topic_type(topic);
     void* sample = type->createData();
     SerializedPayload_t nothing, noise(100);
@@ -123,15 +126,22 @@ TEST(Dds, SamplesAreReadByAnyProgramWithTheDocumentsTypes) {
   const Progress progress = random.progress();
   const Control control = random.control();
   const LoopNews news = random.news();
+  CauseFound cause = random.cause();
+  FinalFigures figures = random.figures();
+  cause.calibration = figures.calibration = news.calibration;
   worker->publish(status);
   worker->publish(progress);
   coordinator->publish(control);
   reporter->publish(news);
+  reporter->publish(cause);
+  reporter->publish(figures);
   Tool tool;
   EXPECT_EQ(decode<WorkerStatus>(tool.read<wire::WorkerStatusPubSubType>(Topic::worker)), status);
   EXPECT_EQ(decode<Progress>(tool.read<wire::PlacedProgressPubSubType>(Topic::progress).progress()), progress);
   EXPECT_EQ(decode<Control>(tool.read<wire::ControlPubSubType>(Topic::control)), control);
   EXPECT_EQ(decode<LoopNews>(tool.read<wire::LoopNewsPubSubType>(Topic::loop)), news);
+  EXPECT_EQ(decode<CauseFound>(tool.read<wire::CauseFoundPubSubType>(Topic::cause)), cause);
+  EXPECT_EQ(decode<FinalFigures>(tool.read<wire::FinalFiguresPubSubType>(Topic::final_figures)), figures);
 }
 
 }  // namespace

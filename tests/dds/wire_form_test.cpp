@@ -33,6 +33,8 @@ TEST(WireForm, IsThatOfTheDocumentForEveryMessage) {
   expect_the_same_form<wire::WorkerStatus>(&RandomMessages::status);
   expect_the_same_form<wire::Control>(&RandomMessages::control);
   expect_the_same_form<wire::LoopNews>(&RandomMessages::news);
+  expect_the_same_form<wire::CauseFound>(&RandomMessages::cause);
+  expect_the_same_form<wire::FinalFigures>(&RandomMessages::figures);
   const MessagePart part{3, 1, 4, 99, std::vector<std::uint8_t>(1000, 7)};
   EXPECT_EQ(written(encode<wire::MessagePart>(part)), to_bytes(part));
   EXPECT_EQ(decode<MessagePart>(encode<wire::MessagePart>(part)), part);

@@ -146,6 +146,8 @@ const std::string kEvents = R"json({"event": "format", "demecal_events": 1}
 {"event": "stage", "t_s": 0.4, "calibration": "9", "run": "7", "stage": "evolving", "job": "j", "text": "t"}
 {"event": "run_state", "t_s": 0.5, "run": "7", "state": "finished", "note": "n"}
 {"event": "worker_lost", "t_s": 0.6, "worker": "w"}
+{"event": "cause", "t_s": 0.7, "calibration": "9", "number": 1, "cause": "lost_motion", "joint": 2, "label": "l", "without_mm": 0.4, "with_mm": null, "share_of_error": 0.5, "advice": "a"}
+{"event": "final_figures", "t_s": 0.8, "calibration": "9", "job": "j", "causes": 1, "effects": 2, "validation_before_mm": 0.4, "validation_after_mm": 0.3, "accept_before_mm": null, "accept_after_mm": null}
 )json";
 
 }  // namespace

@@ -117,6 +117,12 @@ void use(const Control& control) {
 void use(const LoopNews& news) {
   demand(is_printable(news.text) && is_printable(news.label), "printable");
 }
+void use(const CauseFound& cause) {
+  demand(is_printable(cause.label) && is_printable(cause.advice), "printable");
+}
+void use(const FinalFigures& figures) {
+  demand(is_printable(figures.job), "printable");
+}
 
 template <class Plain>
 void use_decoded(const Plain& message) {
@@ -258,7 +264,9 @@ std::vector<Target> wire_targets() {
           progress_target(progress_of(last)),
           sample_target("sample_worker", Topic::worker, random.status()),
           sample_target("sample_control", Topic::control, random.control()),
-          sample_target("sample_loop", Topic::loop, random.news())};
+          sample_target("sample_loop", Topic::loop, random.news()),
+          sample_target("sample_cause", Topic::cause, random.cause()),
+          sample_target("sample_final_figures", Topic::final_figures, random.figures())};
 }
 
 }  // namespace demecal::fuzz

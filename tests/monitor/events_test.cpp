@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,7 @@ using Json = nlohmann::json;
 std::vector<Message> all_kinds() {
   std::vector<Message> messages = made_up_messages(made_up_data());
   messages.emplace_back(Control{kRun, Control::State::cancelled, "note"});
+  for (Message& found : made_up_findings()) messages.push_back(std::move(found));
   messages.emplace_back(CalibrationLost{kCalibration});
   return messages;
 }
@@ -46,6 +48,7 @@ TEST(EventLine, ReadBackGivesTheSamePage) {
     EXPECT_EQ(monitor_page(read, options), monitor_page(told, options));
   }
   EXPECT_EQ(read.run()->islands, told.run()->islands);
+  EXPECT_EQ(read.calibration()->causes.size(), told.calibration()->causes.size());
 }
 
 TEST(EventLine, NumbersOfRunsSurviveReadersOfDoubles) {
@@ -62,6 +65,30 @@ TEST(EventLine, WhatIsNotFiniteIsNullAndComesBack) {
   const std::string line = event_line(progress, 0.0);
   EXPECT_TRUE(Json::parse(line).at("best_fitness").is_null());
   EXPECT_EQ(std::get<Progress>(read_event(line, "", 1)->message), progress);
+}
+
+TEST(EventLine, OfWhatWasFoundIsInMillimetresAndUnknownFiguresAreNull) {
+  const std::vector<Message> found = made_up_findings();
+  const Json cause = Json::parse(event_line(found[0], 0.0)), of_the_arm = Json::parse(event_line(found[1], 0.0)),
+             figures = Json::parse(event_line(found[2], 0.0));
+  EXPECT_EQ(cause["event"], "cause");
+  EXPECT_EQ(cause["calibration"], std::to_string(kCalibration));
+  EXPECT_EQ(cause["number"], 1);
+  EXPECT_EQ(cause["joint"], 2);
+  EXPECT_DOUBLE_EQ(cause["without_mm"], 0.417);
+  EXPECT_DOUBLE_EQ(cause["with_mm"], 0.262);
+  EXPECT_EQ(cause["share_of_error"], 0.4);
+  for (const char* const unknown : {"joint", "without_mm", "with_mm", "share_of_error"})
+    EXPECT_TRUE(of_the_arm.at(unknown).is_null()) << unknown;
+  EXPECT_EQ(figures["event"], "final_figures");
+  EXPECT_EQ(figures["causes"], 2);
+  EXPECT_DOUBLE_EQ(figures["validation_after_mm"], 0.262);
+  EXPECT_TRUE(figures.at("accept_before_mm").is_null() && figures.at("accept_after_mm").is_null());
+  const auto back = std::get<CauseFound>(read_event(event_line(found[1], 0.0), "", 1)->message);
+  EXPECT_TRUE(back.joint == 0 && std::isnan(back.without_m) && std::isnan(back.with_m));
+  const auto figures_back = std::get<FinalFigures>(read_event(event_line(found[2], 0.0), "", 1)->message);
+  EXPECT_DOUBLE_EQ(figures_back.validation_before_m, 0.417e-3);
+  EXPECT_TRUE(std::isnan(figures_back.accept_after_m));
 }
 
 TEST(EventLine, TextThatIsNoUtf8DoesNotBreakTheLine) {

@@ -1,6 +1,7 @@
 // A run as a watcher hears of it, with figures made up from a literal seed.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,39 @@ inline LoopNews made_up_round(std::uint32_t number, LoopNews::Verdict verdict = 
   news.validation_before_m = 0.354e-3;
   news.validation_after_m = 0.233e-3;
   return news;
+}
+
+inline CauseFound made_up_cause(std::uint32_t number, std::uint32_t joint) {
+  CauseFound cause;
+  cause.calibration = kCalibration;
+  cause.number = number;
+  cause.cause = "lost_motion";
+  cause.joint = joint;
+  cause.label = "lost motion of joint " + std::to_string(joint);
+  cause.without_m = 0.417e-3;
+  cause.with_m = 0.262e-3;
+  cause.share_of_error = 0.4;
+  cause.advice = "Ask for the play to be taken up.";
+  return cause;
+}
+
+inline FinalFigures made_up_figures() {
+  FinalFigures figures;
+  figures.calibration = kCalibration;
+  figures.job = "puma761-demo";
+  figures.causes = 2;
+  figures.effects = 3;
+  figures.validation_before_m = 0.417e-3;
+  figures.validation_after_m = 0.262e-3;
+  figures.accept_before_m = figures.accept_after_m = std::numeric_limits<double>::quiet_NaN();
+  return figures;
+}
+
+/// What is told at a calibration's end. Of one cause little is known, of the final figures those of accept poses.
+inline std::vector<Message> made_up_findings() {
+  CauseFound of_the_arm = made_up_cause(2, 0);
+  of_the_arm.without_m = of_the_arm.with_m = of_the_arm.share_of_error = std::numeric_limits<double>::quiet_NaN();
+  return {made_up_cause(1, 2), of_the_arm, made_up_figures()};
 }
 
 inline Progress made_up_progress(RandomStream& random, IslandKey island, std::uint32_t generation) {

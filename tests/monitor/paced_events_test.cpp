@@ -92,13 +92,18 @@ TEST(PacedEvents, SayNothingOfWhatDoesNotConcernPeople) {
 }
 
 TEST(StateJson, HoldsWhatWasSeenByTheNamesOfEvents) {
-  const Watched watched = watched_after(made_up_messages(made_up_data()));
+  Watched watched = watched_after(made_up_messages(made_up_data()));
+  EXPECT_TRUE(Json::parse(state_json(watched, 2.5, "domain 3"))["calibration"]["final_figures"].is_null());
+  for (const Message& found : made_up_findings()) watched.take(found, 1.0);
   const Json state = Json::parse(state_json(watched, 2.5, "domain 3"));
   EXPECT_EQ(state["demecal_state"], kStateVersion);
   EXPECT_EQ(state["t_s"], 2.5);
   EXPECT_EQ(state["place"], "domain 3");
   EXPECT_EQ(state["calibration"]["stage"], "evolving");
   EXPECT_EQ(state["calibration"]["rounds"].size(), 2u);
+  ASSERT_EQ(state["calibration"]["causes"].size(), 2u);
+  EXPECT_EQ(state["calibration"]["causes"][0]["label"], "lost motion of joint 2");
+  EXPECT_EQ(state["calibration"]["final_figures"]["effects"], 3);
   EXPECT_EQ(state["run"]["islands"].size(), 12u);
   EXPECT_DOUBLE_EQ(state["run"]["share_done"].get<double>(), share_done(*watched.run()));
   ASSERT_EQ(state["workers"].size(), 3u);

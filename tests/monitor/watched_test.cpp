@@ -36,7 +36,8 @@ TEST(Watched, HasSeenNothingBeforeAnythingIsSaid) {
 }
 
 TEST(Watched, ComesToTheSameFiguresInWhateverOrderTopicsArrive) {
-  const std::vector<Message> messages = made_up_messages(made_up_data());
+  std::vector<Message> messages = made_up_messages(made_up_data());
+  messages.insert(messages.end(), {made_up_cause(1, 2), made_up_cause(2, 3)});
   const Watched in_order = watched_after(messages);
   const auto& expected = in_order.run()->islands;
   ASSERT_EQ(expected.size(), 12u);
@@ -47,6 +48,7 @@ TEST(Watched, ComesToTheSameFiguresInWhateverOrderTopicsArrive) {
     const Watched watched = watched_after(shuffled);
     EXPECT_EQ(watched.run()->islands, expected);
     EXPECT_EQ(watched.calibration()->rounds, in_order.calibration()->rounds);
+    EXPECT_EQ(watched.calibration()->causes, in_order.calibration()->causes);
     EXPECT_EQ(watched.calibration()->stage, in_order.calibration()->stage);
   }
 }
@@ -82,6 +84,13 @@ TEST(Watched, KeepsNoMoreThanAFewRunsAndCalibrations) {
   EXPECT_EQ(watched.calibration()->stage.calibration, 100u);
   EXPECT_EQ(watched.run()->islands.begin()->second.run, 100u);
   EXPECT_LT(watched.other_calibrations(), 10u);
+  for (std::uint32_t number = 0; number < 5000; ++number) {
+    CauseFound cause = made_up_cause(number, 2);
+    cause.calibration = 100;
+    watched.take(cause, 101.0);
+  }
+  EXPECT_LE(watched.calibration()->causes.size(), 1000u);
+  EXPECT_FALSE(watched.calibration()->causes.contains(0));
   for (int i = 0; i < 100; ++i) watched.take(WorkerLost{"nobody"}, 101.0);
   EXPECT_TRUE(watched.notices().empty());
 }

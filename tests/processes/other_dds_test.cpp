@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <map>
@@ -18,11 +19,14 @@ namespace demecal {
 namespace {
 
 using ::testing::_;
+using ::testing::AnyOf;
 using ::testing::ContainerEq;
 using ::testing::Contains;
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsSubsetOf;
+using ::testing::Pair;
 using Json = nlohmann::json;
 using Lines = std::set<std::vector<std::string>>;
 
@@ -90,6 +94,48 @@ std::string number_of_state(const std::string& state) {
   return state == "running" ? "0" : state == "finished" ? "1" : "2";
 }
 
+/// Metres as the monitor prints them: in mm, unknown ones as null.
+std::string in_millimetres(const std::string& metres) {
+  const double value = 1e3 * std::stod(metres);
+  return std::isfinite(value) ? Json(value).dump() : "null";
+}
+
+/// Samples of causes as what_was_found() has events of them.
+Lines causes_of(const Lines& samples) {
+  Lines lines;
+  for (auto cells : samples) {
+    if (cells.at(3) == "0") cells[3] = "null";
+    for (const std::size_t metres : {5u, 6u}) cells.at(metres) = in_millimetres(cells.at(metres));
+    cells.at(7) = Json(std::stod(cells.at(7))).dump();
+    lines.insert(cells);
+  }
+  return lines;
+}
+
+/// The same of final figures.
+Lines figures_of(const Lines& samples) {
+  Lines lines;
+  for (auto cells : samples) {
+    for (const std::size_t metres : {4u, 5u, 6u, 7u}) cells.at(metres) = in_millimetres(cells.at(metres));
+    lines.insert(cells);
+  }
+  return lines;
+}
+
+/// Of every event with this word the members that the samples have, in their order.
+Lines what_was_found(const std::string& out, const std::string& word, const std::vector<std::string>& members) {
+  Lines lines;
+  std::istringstream stream(out);
+  for (std::string line; std::getline(stream, line);) {
+    const Json event = Json::parse(line);
+    if (event["event"] != word) continue;
+    std::vector<std::string> cells;
+    for (const std::string& member : members) cells.push_back(text_of(event.at(member)));
+    lines.insert(cells);
+  }
+  return lines;
+}
+
 class OtherDds : public ::testing::Test {
  protected:
   OtherDds() { set_up_cyclone(); }
@@ -101,7 +147,7 @@ class OtherDds : public ::testing::Test {
 };
 
 TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
-  const SmallJob job(1000, 2);
+  const SmallJob job(1000, 2, "  backlash:\n    - {joint: 2, width_rad: 0.002}\n");
   StartedProgram monitor("demecal", {"monitor", "--domain", other_domain(1), "--json", "--ros2"});
   ASSERT_TRUE(monitor.wait_for_out("begin"));
   StartedProgram reader("read-topics", {other_domain(1), "60"});
@@ -134,13 +180,30 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
     }
   }
   EXPECT_THAT(topics["rt/demecal/events"], ContainerEq(lines));
-  EXPECT_EQ(last_of_islands(progress).size() % 12, 0u);
+  std::map<std::string, int> islands_of_runs;
+  for (const auto& [island, figures] : last_of_islands(progress)) ++islands_of_runs[island.substr(0, island.find('/'))];
+  // Corrections have two for each joint, explanations four.
+  EXPECT_THAT(islands_of_runs, Each(Pair(_, AnyOf(12, 4))));
+  EXPECT_THAT(islands_of_runs, Contains(Pair(_, 12)));
   for (const std::string own : {"demecal/8/", "rt/demecal/"}) {
     EXPECT_EQ(last_of_islands(topics[own + "progress"]), last_of_islands(progress)) << own;
     EXPECT_THAT(chosen(topics[own + "worker"], {0, 1, 2, 3}), ContainerEq(workers)) << own;
   }
   EXPECT_THAT(chosen(topics["rt/demecal/loop"], {0, 1, 4}), ContainerEq(loop));
   EXPECT_THAT(chosen(topics["rt/demecal/run_state"], {0, 1}), ContainerEq(controls));
+  const Lines causes = what_was_found(
+      printed.out, "cause",
+      {"calibration", "number", "cause", "joint", "label", "without_mm", "with_mm", "share_of_error", "advice"});
+  const Lines figures = what_was_found(printed.out, "final_figures",
+                                       {"calibration", "job", "causes", "effects", "validation_before_mm",
+                                        "validation_after_mm", "accept_before_mm", "accept_after_mm"});
+  ASSERT_EQ(figures.size(), 1u);
+  EXPECT_EQ(figures.begin()->at(2), std::to_string(causes.size()));
+  EXPECT_THAT(causes, Contains(Contains("lost motion of joint 2")));
+  for (const std::string own : {"demecal/8/", "rt/demecal/"}) {
+    EXPECT_THAT(causes_of(topics[own + "cause"]), ContainerEq(causes)) << own;
+    EXPECT_THAT(figures_of(topics[own + "final_figures"]), ContainerEq(figures)) << own;
+  }
   // Of these the writer keeps the last value alone: a reader that is slow misses what it replaced.
   const Lines ends = chosen(topics["demecal/8/loop"], {0, 1, 4}), states = chosen(topics["demecal/8/control"], {0, 1});
   EXPECT_THAT(ends, IsSubsetOf(loop));

@@ -127,27 +127,19 @@ Declarations in_the_document(const std::string& keyword) {
 }
 
 TEST(Document, DeclaresTheStructsThatTheListsAreOf) {
-  const Declarations listed{{"MessagePart", declared<MessagePart>()},
-                            {"Formula", declared<FlatFormula>()},
-                            {"Individual", declared<Individual>()},
-                            {"SharedFunction", declared<SharedFunction>()},
-                            {"GpParameters", declared<GpParameters>()},
-                            {"Archipelago", declared<Archipelago>()},
-                            {"TrainingTable", declared<TrainingTable>()},
-                            {"CauseName", declared<CauseName>()},
-                            {"SetTraining", declared<SetTraining>()},
-                            {"CalibrationData", declared<CalibrationData>()},
-                            {"Migrants", declared<Migrants>()},
-                            {"IslandState", declared<IslandState>()},
-                            {"IslandTask", declared<IslandTask>()},
-                            {"EpochFigures", declared<EpochFigures>()},
-                            {"Progress", declared<Progress>()},
-                            {"PlacedProgress", declared<PlacedProgress>()},
-                            {"Checkpoint", declared<Checkpoint>()},
-                            {"Outcome", declared<Outcome>()},
-                            {"WorkerStatus", declared<WorkerStatus>()},
-                            {"Control", declared<Control>()},
-                            {"LoopNews", declared<LoopNews>()}};
+  const Declarations listed{
+      {"MessagePart", declared<MessagePart>()},     {"Formula", declared<FlatFormula>()},
+      {"Individual", declared<Individual>()},       {"SharedFunction", declared<SharedFunction>()},
+      {"GpParameters", declared<GpParameters>()},   {"Archipelago", declared<Archipelago>()},
+      {"TrainingTable", declared<TrainingTable>()}, {"CauseName", declared<CauseName>()},
+      {"SetTraining", declared<SetTraining>()},     {"CalibrationData", declared<CalibrationData>()},
+      {"Migrants", declared<Migrants>()},           {"IslandState", declared<IslandState>()},
+      {"IslandTask", declared<IslandTask>()},       {"EpochFigures", declared<EpochFigures>()},
+      {"Progress", declared<Progress>()},           {"PlacedProgress", declared<PlacedProgress>()},
+      {"Checkpoint", declared<Checkpoint>()},       {"Outcome", declared<Outcome>()},
+      {"WorkerStatus", declared<WorkerStatus>()},   {"Control", declared<Control>()},
+      {"LoopNews", declared<LoopNews>()},           {"CauseFound", declared<CauseFound>()},
+      {"FinalFigures", declared<FinalFigures>()}};
   EXPECT_EQ(in_the_document("struct"), listed);
 }
 

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "protocol/message_bytes.hpp"
 #include "random/random_stream.hpp"
@@ -24,6 +26,8 @@ void with_every_kind(Check check) {
     check(random.status());
     check(random.control());
     check(random.news());
+    check(random.cause());
+    check(random.figures());
     check(PlacedProgress{random.text(), random.number(), true, random.progress()});
     check(MessagePart{random.number(), 1, 2, random.number(), std::vector<std::uint8_t>(random.number() % 500, 9)});
   }
@@ -51,6 +55,15 @@ TEST(MessageBytes, CutOffAnywhereAreNone) {
     EXPECT_FALSE(is_message(message, std::string_view(bytes).substr(0, bytes.size() - 1)));
     EXPECT_FALSE(is_message(message, bytes + "more"));
   });
+}
+
+TEST(MessageBytes, OfFiguresThatAreNotKnownComeBackSo) {
+  FinalFigures figures = RandomMessages(5).figures();
+  figures.accept_before_m = figures.accept_after_m = std::numeric_limits<double>::quiet_NaN();
+  const auto read = from_bytes<FinalFigures>(to_bytes(figures));
+  ASSERT_TRUE(read.has_value());
+  EXPECT_TRUE(std::isnan(read->accept_before_m) && std::isnan(read->accept_after_m));
+  EXPECT_EQ(read->validation_after_m, figures.validation_after_m);
 }
 
 TEST(MessageBytes, AreTheSameOnEveryMachine) {
@@ -93,6 +106,12 @@ TEST(MessageBytes, OfARunWorkerOrCalibrationThatIsNoneAreNone) {
                of_run_0(random.control()));
   EXPECT_FALSE(from_bytes<WorkerStatus>(to_bytes(WorkerStatus{})).has_value());
   EXPECT_FALSE(from_bytes<LoopNews>(to_bytes(LoopNews{})).has_value());
+  EXPECT_FALSE(from_bytes<FinalFigures>(to_bytes(FinalFigures{})).has_value());
+  CauseFound of_none = random.cause(), without_number = random.cause();
+  of_none.calibration = 0;
+  without_number.number = 0;
+  EXPECT_FALSE(from_bytes<CauseFound>(to_bytes(of_none)).has_value());
+  EXPECT_FALSE(from_bytes<CauseFound>(to_bytes(without_number)).has_value());
 }
 
 TEST(MessageBytes, WhoseTextIsLongerThanItsBoundAreNone) {

@@ -119,6 +119,12 @@ class RandomMessages {
     return {number(), number(), number(), stages[random_.index(6)], text(),        text(), verdicts[random_.index(3)],
             text(),   number(), text(),   random_.real(),           random_.real()};
   }
+  CauseFound cause() {
+    return {number(), number(), text(), number(), text(), random_.real(), random_.real(), random_.real(), text()};
+  }
+  FinalFigures figures() {
+    return {number(), text(), number(), number(), random_.real(), random_.real(), random_.real(), random_.real()};
+  }
   /// Data of the run that a task is of: before them it is not delivered.
   CalibrationData data_of(const IslandTask& task) {
     CalibrationData of_run = data();

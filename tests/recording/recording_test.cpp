@@ -23,6 +23,7 @@ constexpr std::uint64_t kBegin_ns = 1'700'000'000'000'000'000;
 std::vector<Message> all_events() {
   std::vector<Message> messages = made_up_messages(made_up_data());
   messages.emplace_back(Control{kRun, Control::State::cancelled, "note"});
+  for (Message& found : made_up_findings()) messages.push_back(std::move(found));
   messages.emplace_back(CalibrationLost{kCalibration});
   return messages;
 }

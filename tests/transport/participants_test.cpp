@@ -130,6 +130,30 @@ TEST_F(Presences, NewsOfACalibrationComeFromOneWriterWhileItIsThere) {
   EXPECT_EQ(arrived(), Messages{news});
 }
 
+TEST_F(Presences, WhatWasFoundComesFromTheParticipantOfTheNews) {
+  CalibrationPresence reporters(mailbox);
+  LoopNews news;
+  news.calibration = 3;
+  CauseFound cause;
+  cause.calibration = 3;
+  cause.number = 1;
+  FinalFigures figures;
+  figures.calibration = 3;
+  WriterId same_participant = kOne;
+  same_participant.back() = 7;
+  EXPECT_TRUE(reporters.receive(kTwo, figures)) << "nobody's calibration yet";
+  EXPECT_TRUE(reporters.receive(kOne, news));
+  EXPECT_FALSE(reporters.receive(kTwo, cause));
+  EXPECT_FALSE(reporters.receive(kTwo, figures));
+  EXPECT_TRUE(reporters.receive(same_participant, cause));
+  EXPECT_TRUE(reporters.receive(same_participant, figures));
+  reporters.departed(same_participant);  // its writer of news is there
+  reporters.departed(kOne);
+  Messages all = arrived();
+  std::erase(all, Message(figures));
+  EXPECT_EQ(all, (Messages{news, cause, CalibrationLost{3}}));
+}
+
 TEST_F(Presences, ACalibrationThatCameToItsEndIsNotLost) {
   using Stage = LoopNews::Stage;
   const std::vector<std::pair<Stage, bool>> stages{{Stage::preparing, false},  {Stage::evolving, false},

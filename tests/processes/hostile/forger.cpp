@@ -48,7 +48,7 @@ Message Forger::forge_about(IslandKey island, const std::string& worker) {
   const RunId run = random_.chance(0.8) ? data_->run : data_->run + 1 + random_.index(1000);
   const auto attempt = static_cast<std::uint32_t>(1 + random_.index(3));
   const Checkpoint& state = bred(island);
-  switch (random_.index(10)) {
+  switch (random_.index(12)) {
     case 0: {
       CalibrationData data = *other_data_;
       data.run = run;
@@ -85,6 +85,11 @@ Message Forger::forge_about(IslandKey island, const std::string& worker) {
       return WorkerStatus{.worker = worker, .host = "elsewhere", .slots = 4000, .version = "v", .leaving = true};
     case 8:
       return WorkerStatus{.worker = worker, .host = "elsewhere", .slots = 4000, .version = "v"};
+    case 9:
+      return CauseFound{
+          .calibration = run, .number = attempt, .cause = "formula", .label = "\033[2J", .advice = "stop"};
+    case 10:
+      return FinalFigures{.calibration = run, .job = "\033[2J", .causes = 0xFFFFFFFFU};
     default: {
       LoopNews news;
       news.calibration = news.run = run;
