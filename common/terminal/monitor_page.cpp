@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <optional>
@@ -65,20 +67,34 @@ std::string metres_in_mm(double value_m) {
   return std::isfinite(value_m) ? fmt::format("{:.3f}", 1e3 * value_m) : "–";
 }
 
-std::string round_line(const LoopNews& round, std::size_t columns) {
-  const bool is_added = round.verdict == LoopNews::Verdict::added;
-  const std::string figures =
-      is_added ? metres_in_mm(round.validation_before_m) + " -> " + metres_in_mm(round.validation_after_m)
-               : to_string(round.verdict);
-  const std::string label = round.label.empty() ? "nothing" : round.label;
+/// Of a table whose lines are numbered: what the line is of, its figures and, where there is room, a sentence.
+struct NumberedCells {
+  std::uint32_t number = 0;
+  std::string label, figures, text;
+};
+
+std::string numbered_line(const NumberedCells& cells, std::size_t columns) {
   const std::size_t room = columns - 5 - 20;
   const std::size_t label_room = std::min<std::size_t>(room, 42);
-  std::string line = right_aligned(std::to_string(round.round), 3) + "  " + left_aligned(label, label_room) +
-                     right_aligned(figures, 20);
-  if (columns > display_width(line) + 20 && !round.text.empty()) {
-    line += "  " + truncated(round.text, columns - display_width(line) - 2);
+  std::string line = right_aligned(std::to_string(cells.number), 3) + "  " + left_aligned(cells.label, label_room) +
+                     right_aligned(cells.figures, 20);
+  if (columns > display_width(line) + 20 && !cells.text.empty()) {
+    line += "  " + truncated(cells.text, columns - display_width(line) - 2);
   }
   return line;
+}
+
+std::string from_to_in_mm(double from_m, double to_m) {
+  return metres_in_mm(from_m) + " -> " + metres_in_mm(to_m);
+}
+
+std::string round_line(const LoopNews& round, std::size_t columns) {
+  const bool is_added = round.verdict == LoopNews::Verdict::added;
+  return numbered_line(
+      {round.round, round.label.empty() ? "nothing" : round.label,
+       is_added ? from_to_in_mm(round.validation_before_m, round.validation_after_m) : to_string(round.verdict),
+       round.text},
+      columns);
 }
 
 using Lines = std::vector<std::string>;
@@ -170,6 +186,7 @@ Lines Page::below() const {
   Lines lines;
   for (const Lines& table : {worker_lines(watched_, options_.now_s, {columns_, is_short ? 6U : 0U, options_.colours}),
                              round_lines(calibration_, {columns_, is_short ? 6U : 0U, options_.colours}),
+                             cause_lines(calibration_, {columns_, is_short ? 6U : 0U, options_.colours}),
                              event_lines(watched_, options_.now_s, {columns_, 3, options_.colours})}) {
     if (table.empty()) continue;
     lines.emplace_back();
@@ -239,6 +256,20 @@ std::vector<std::string> round_lines(const WatchedCalibration* calibration, cons
     lines.push_back(styled(round_line(round, options.columns), ink, options.colours));
   }
   return with_last_rows(std::move(lines), options);
+}
+
+std::vector<std::string> cause_lines(const WatchedCalibration* calibration, const TableOptions& options) {
+  if (calibration == nullptr || calibration->causes.empty()) return {};
+  const std::size_t count = calibration->causes.size();
+  const std::string heading = fmt::format(
+      "{} cause{} of error; rms error on validation poses without it -> with it, mm", count, count == 1 ? "" : "s");
+  Lines lines{styled(truncated(heading, options.columns), TextStyle::faint, options.colours)};
+  for (const auto& [number, cause] : calibration->causes) {
+    if (options.rows != 0 && lines.size() > options.rows) break;
+    const std::string figures = from_to_in_mm(cause.without_m, cause.with_m);
+    lines.push_back(numbered_line({number, cause.label, figures, cause.advice}, options.columns));
+  }
+  return lines;
 }
 
 std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options) {

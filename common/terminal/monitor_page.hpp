@@ -30,6 +30,8 @@ struct TableOptions {
 std::vector<std::string> worker_lines(const Watched& watched, double now_s, const TableOptions& options);
 /// `calibration` may be null.
 std::vector<std::string> round_lines(const WatchedCalibration* calibration, const TableOptions& options);
+/// The same; of more rows the first, which are the costliest.
+std::vector<std::string> cause_lines(const WatchedCalibration* calibration, const TableOptions& options);
 std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options);
 
 struct GridOptions {

@@ -106,6 +106,23 @@ TEST(MonitorPage, ShowsLessOfEachIslandBeforeItLeavesIslandsOut) {
   EXPECT_NE(grid(5).find("islands more"), std::string::npos);
 }
 
+TEST(MonitorPage, ShowsTheCausesThatWereFoundTheCostliestFirst) {
+  Watched watched = watched_after(made_up_messages(made_up_data()));
+  EXPECT_EQ(joined(monitor_page(watched, page_of(100))).find("cause"), std::string::npos);
+  EXPECT_TRUE(cause_lines(nullptr, {}).empty());
+  for (const Message& found : made_up_findings()) watched.take(found, 1.0);
+  for (const std::size_t columns : {80u, 140u}) {
+    const std::string page = joined(monitor_page(watched, page_of(columns)));
+    for (const char* const word : {"2 causes of error", "lost motion of joint 2", "0.417 -> 0.262", "– -> –"})
+      EXPECT_NE(page.find(word), std::string::npos) << word << "\n" << page;
+  }
+  const Lines cut = cause_lines(watched.calibration(), {.columns = 80, .rows = 1, .colours = false});
+  ASSERT_EQ(cut.size(), 2u);
+  EXPECT_NE(cut[1].find("joint 2"), std::string::npos);
+  for (std::size_t columns = 40; columns <= 240; columns += 7)
+    for (const std::string& line : monitor_page(watched, page_of(columns))) EXPECT_LE(display_width(line), columns);
+}
+
 TEST(MonitorPage, ColoursChangeNoLetter) {
   const Watched watched = watched_after(made_up_messages(made_up_data()));
   PageOptions coloured = page_of(120);
