@@ -57,12 +57,12 @@ std::optional<Finding> coarse_positions(const Trial& trial) {
 }
 
 /// A joint's step in its own unit, and in words.
-struct WrittenJoint {
+struct JointStep {
   double step = 0.0;
   std::string text;
 };
 
-WrittenJoint written_joint(const Trial& trial, int joint) {
+JointStep written_joint(const Trial& trial, int joint) {
   std::vector<double> values;
   for (const TrialRow& row : trial.rows) values.push_back(row.joints[joint]);
   if (!is_revolute(trial.chain, joint)) {
@@ -70,13 +70,13 @@ WrittenJoint written_joint(const Trial& trial, int joint) {
     return {step, fmt::format("{:g} mm", millimetres(step))};
   }
   const double by_degrees = decimal_step(values, radians(10.0)), by_radians = decimal_step(values, 1.0);
-  return by_degrees >= by_radians ? WrittenJoint{by_degrees, fmt::format("{:g} deg", degrees(by_degrees))}
-                                  : WrittenJoint{by_radians, fmt::format("{:g} rad", by_radians)};
+  return by_degrees >= by_radians ? JointStep{by_degrees, fmt::format("{:g} deg", degrees(by_degrees))}
+                                  : JointStep{by_radians, fmt::format("{:g} rad", by_radians)};
 }
 
 /// A joint that is written far more coarsely than others, and errors that are as large along its motion as that makes
 /// them and much smaller across it: values that were commanded to whole steps leave none.
-std::optional<Finding> coarse_joint(const Trial& trial, const TrialFit& fit, int joint, const WrittenJoint& written,
+std::optional<Finding> coarse_joint(const Trial& trial, const TrialFit& fit, int joint, const JointStep& written,
                                     double finest) {
   constexpr double kCoarser = 9.0, kAlongOverAcross = 1.5;
   if (written.step < kCoarser * finest) return std::nullopt;
@@ -106,8 +106,7 @@ std::optional<Finding> coarse_joint(const Trial& trial, const TrialFit& fit, int
 }
 
 /// All joints written so coarsely that errors may be no more than that. Pendants that show 0.01 deg are usual.
-std::optional<Finding> coarse_joints(const Trial& trial, const TrialFit& fit,
-                                     const std::vector<WrittenJoint>& written) {
+std::optional<Finding> coarse_joints(const Trial& trial, const TrialFit& fit, const std::vector<JointStep>& written) {
   constexpr double kNotableRounding = 2e-4;  // of the reach
   double squares_m2 = 0.0;
   for (int joint = 0; joint < trial.chain.size(); ++joint)
@@ -116,7 +115,7 @@ std::optional<Finding> coarse_joints(const Trial& trial, const TrialFit& fit,
   const double rounded_m = std::sqrt(squares_m2 / static_cast<double>(trial.rows.size()));
   if (rounded_m < kNotableRounding * trial.reach_m() || !as_rounded(std::sqrt(3.0) * fit.deviation_m, rounded_m))
     return std::nullopt;
-  const auto coarsest = std::ranges::max_element(written, {}, &WrittenJoint::step);
+  const auto coarsest = std::ranges::max_element(written, {}, &JointStep::step);
   return Finding{
       .kind = FindingKind::coarse_values,
       .as_given_mm = millimetres(rounded_m),
@@ -254,7 +253,7 @@ std::vector<Finding> find_recording_errors(const DataSet& data, const Trial& tri
     return finding.has_value();
   };
   add(coarse_positions(trial));
-  std::vector<WrittenJoint> written;
+  std::vector<JointStep> written;
   double finest = std::numeric_limits<double>::infinity();
   for (int joint = 0; joint < trial.chain.size(); ++joint) {
     written.push_back(written_joint(trial, joint));
