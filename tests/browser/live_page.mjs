@@ -27,6 +27,8 @@ try {
     islands: [...document.querySelectorAll('.island')].map(island => ({key: island.dataset.key, title: island.title})),
     formulas: [...document.getElementById('formulas').rows].map(row => [...row.cells].map(cell => cell.textContent)),
     workers: document.getElementById('workers').rows.length,
+    causes: [...document.getElementById('causes').children].map(cause => cause.firstChild.textContent),
+    final: document.getElementById('finalnote').textContent,
     rounds: document.getElementById('rounds').children.length,
     events: document.getElementById('events').children.length,
     inked: Object.fromEntries([...document.querySelectorAll('canvas')].map(canvas => {

@@ -76,6 +76,12 @@ TEST(LivePage, ShowsARunInABrowserAndAnyMomentOfItAgain) {
     EXPECT_TRUE(shown.contains(std::to_string(island["joint"].get<int>()) + '/' +
                                std::to_string(island["island"].get<int>()) + " generation 200"));
   }
+  const Json& causes = state["calibration"]["causes"];
+  ASSERT_EQ(now["causes"].size(), causes.size());
+  for (std::size_t i = 0; i < causes.size(); ++i)
+    EXPECT_TRUE(now["causes"][i].get<std::string>().starts_with(causes[i]["label"].get<std::string>()));
+  EXPECT_NE(now["final"].get<std::string>().find("rms error on"), std::string::npos) << now["final"];
+  EXPECT_TRUE(seen["begin"]["final"].get<std::string>().empty());
   EXPECT_TRUE(seen["begin"]["islands"].empty());
   EXPECT_NE(seen["before"]["stage"], now["stage"]);
   EXPECT_EQ(seen["again"]["islands"], now["islands"]);

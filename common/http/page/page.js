@@ -180,6 +180,13 @@ function drawTables(calibration, run) {
     $('rounds').replaceChildren(...rounds.map(roundElement));
     $('rounds').scrollTop = $('rounds').scrollHeight;
   }
+  const causes = [...(calibration?.causes.values() ?? [])].sort((a, b) => a.number - b.number), last = calibration?.finalFigures;
+  if ($('causes').dataset.mark !== `${calibration?.id}:${causes.length}`) {
+    $('causes').dataset.mark = `${calibration?.id}:${causes.length}`;
+    $('causes').replaceChildren(...causes.map(causeElement));
+  }
+  $('finalnote').hidden = !last;
+  text($('finalnote'), last ? finalNote(last) : '');
   const added = rounds.filter(round => round.verdict === 'added' && round.validation_after_mm !== null);
   text($('roundnote'), rounds.length === 0 ? 'the closed loop has not begun' : added.length === 0 ? `${rounds.length} rounds, nothing added` :
        `mean error on validation poses ${short(added[0].validation_before_mm)} → ${short(added.at(-1).validation_after_mm)} mm`);
@@ -188,6 +195,21 @@ function drawTables(calibration, run) {
     $('events').dataset.mark = `${notices.length}:${notices[0]?.t_s}`;
     $('events').replaceChildren(...notices.map(one => Object.assign(document.createElement('li'), {textContent: `${duration(one.t_s)}: ${one.text}`})));
   }
+}
+
+function finalNote(last) {
+  const told = ['validation', 'accept'].filter(set => last[`${set}_after_mm`] !== null)
+    .map(set => `rms error on ${set} poses ${short(last[`${set}_before_mm`])} → ${short(last[`${set}_after_mm`])} mm`);
+  return (told.join('; ') || 'no poses judge the model') + (last.causes > 0 ? '; and on validation poses without each cause → with it:' : '');
+}
+
+function causeElement(cause) {
+  const made = document.createElement('li'), small = document.createElement('small');
+  made.value = cause.number;
+  made.textContent = cause.without_mm === null || cause.with_mm === null ? cause.label : `${cause.label}: ${short(cause.without_mm)} → ${short(cause.with_mm)} mm`;
+  small.textContent = cause.advice;
+  made.append(small);
+  return made;
 }
 
 function roundElement(round) {

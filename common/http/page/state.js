@@ -12,7 +12,7 @@ function runOf(state, id) {
 }
 
 function calibrationOf(state, id) {
-  if (!state.calibrations.has(id)) state.calibrations.set(id, {id, job: '', stage: '', text: '', run: '', lost: false, rounds: new Map()});
+  if (!state.calibrations.has(id)) state.calibrations.set(id, {id, job: '', stage: '', text: '', run: '', lost: false, rounds: new Map(), causes: new Map(), finalFigures: null});
   return state.calibrations.get(id);
 }
 
@@ -83,6 +83,12 @@ const kTakers = {
     if (!calibration.rounds.has(e.round) && e.verdict === 'added') notice(state, e, `found: ${e.label}`);
     calibration.job ||= e.job;
     calibration.rounds.set(e.round, e);
+  },
+  cause: (state, e) => { calibrationOf(state, e.calibration).causes.set(e.number, e); },
+  final_figures: (state, e) => {
+    const calibration = calibrationOf(state, e.calibration);
+    calibration.job ||= e.job;
+    calibration.finalFigures = e;
   },
   worker_lost: (state, e) => {
     const worker = state.workers.get(e.worker);
