@@ -12,6 +12,7 @@
 
 #include "data/data_set.hpp"
 #include "diagnosis/outcome.hpp"
+#include "evolution/archipelago.hpp"
 #include "monitor/events.hpp"
 #include "protocol/messages.hpp"
 #include "report/report.hpp"

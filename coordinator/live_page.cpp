@@ -1,22 +1,29 @@
 #include "coordinator/live_page.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
+#include "data/data_set.hpp"
 #include "data_files/data_set_file.hpp"
+#include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "http/access.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "monitor/events.hpp"
 #include "monitor/state_json.hpp"
+#include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"

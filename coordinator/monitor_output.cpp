@@ -1,6 +1,7 @@
 #include "coordinator/monitor_output.hpp"
 
 #include <fmt/format.h>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>

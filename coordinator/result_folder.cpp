@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <ranges>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -25,6 +26,7 @@
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
 #include "html/page.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
 #include "report/history.hpp"
 #include "report/make_report.hpp"

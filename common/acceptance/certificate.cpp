@@ -3,16 +3,20 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <map>
+#include <string_view>
 
 #include "acceptance/remarks.hpp"
 #include "acceptance/touched_lengths.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/posterior.hpp"

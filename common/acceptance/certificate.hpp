@@ -13,6 +13,8 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/certificate_fields.hpp"
 #include "data/data_set.hpp"
+#include "parameters/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "report/evaluation.hpp"
 #include "report/report.hpp"
 

@@ -1,8 +1,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "acceptance/certificate.hpp"
+#include "acceptance/iso9283.hpp"
+#include "acceptance/verdict.hpp"
 #include "kinematics/units.hpp"
 #include "report/error_fields.hpp"
 #include "report/json.hpp"

@@ -1,14 +1,18 @@
 #include "acceptance/iso9283.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include "data/text.hpp"
 #include "effects/arm_state.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"

@@ -3,8 +3,13 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <set>
+#include <utility>
 
+#include "acceptance/verdict.hpp"
+#include "data/certificate_fields.hpp"
 #include "data/text.hpp"
 #include "parameters/posterior.hpp"
 #include "report/evaluation.hpp"

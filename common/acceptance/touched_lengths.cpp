@@ -1,19 +1,27 @@
 #include "acceptance/touched_lengths.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
+#include <ranges>
 #include <string>
 #include <utility>
 
+#include "acceptance/iso9283.hpp"
+#include "acceptance/verdict.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline acceptance {
 namespace {

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "acceptance/certificate.hpp"
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "prediction/corrected_robot.hpp"
 

@@ -19,6 +19,7 @@
 #include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline baselines {
 namespace {

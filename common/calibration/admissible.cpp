@@ -1,15 +1,18 @@
 #include "calibration/admissible.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 
 #include "calibration/training.hpp"
 #include "effects/arm_state.hpp"
 #include "evolution/population.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
+#include "fitness/fitness.hpp"
 #include "primitives/primitive.hpp"
 
 namespace demecal::inline calibration {

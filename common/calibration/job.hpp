@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/certificate_fields.hpp"
+#include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
 #include "explanations/explanation_search.hpp"
 #include "expression/tree.hpp"

@@ -1,3 +1,4 @@
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -14,6 +15,7 @@
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
+#include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"

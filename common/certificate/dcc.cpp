@@ -1,7 +1,13 @@
+#include "acceptance/certificate.hpp"
+#include "acceptance/iso9283.hpp"
+#include "acceptance/verdict.hpp"
 #include "certificate/documents.hpp"
+#include "data/certificate_fields.hpp"
 
 #include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "certificate/dcc_results.hpp"
 #include "certificate/xml.hpp"

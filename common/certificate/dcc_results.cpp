@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <vector>
 
+#include "acceptance/iso9283.hpp"
+#include "acceptance/verdict.hpp"
+#include "data/certificate_fields.hpp"
 #include "kinematics/units.hpp"
+#include "report/evaluation.hpp"
 
 namespace demecal::inline certificate {
 namespace {

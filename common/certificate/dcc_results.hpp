@@ -7,6 +7,7 @@
 
 #include "acceptance/certificate.hpp"
 #include "certificate/xml.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline certificate {
 

@@ -1,9 +1,17 @@
+#include "acceptance/certificate.hpp"
+#include "acceptance/iso9283.hpp"
+#include "acceptance/verdict.hpp"
 #include "certificate/documents.hpp"
+#include "data/certificate_fields.hpp"
+#include "report/evaluation.hpp"
+#include "report/report.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>

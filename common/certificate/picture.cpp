@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <string>
+#include <vector>
 
+#include "acceptance/certificate.hpp"
 #include "certificate/documents.hpp"
 #include "kinematics/units.hpp"
 

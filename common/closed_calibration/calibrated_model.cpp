@@ -1,11 +1,20 @@
 #include "closed_calibration/calibrated_model.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "decompositions/decompositions.hpp"
 #include "diagnosis/loop.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/tall_products.hpp"
+#include "kinematics/chain.hpp"
+#include "prediction/measurement.hpp"
+#include "residuals/diagnosed_model.hpp"
+#include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline closed_calibration {
 namespace {

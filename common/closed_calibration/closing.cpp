@@ -13,11 +13,13 @@
 #include "calibration/training.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "diagnosis/loop.hpp"
+#include "effect_sets/set_island.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/parameter_space.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/measurement.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
 #include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline closed_calibration {

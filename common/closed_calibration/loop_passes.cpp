@@ -2,9 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "calibration/calibration.hpp"
 #include "calibration/selection.hpp"
+#include "effects/effect.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline closed_calibration {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cstddef>
 #include <initializer_list>
 #include <map>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "data/text.hpp"
+#include "expression/bound.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "planning/cell.hpp"

@@ -2,15 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
 
+#include "data/certificate_fields.hpp"
 #include "data_files/data_set_file.hpp"
+#include "effect_sets/set_island.hpp"
 #include "effects/effect.hpp"
 #include "evolution/archipelago.hpp"
+#include "fitting/stations.hpp"
 #include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 

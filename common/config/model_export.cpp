@@ -1,21 +1,30 @@
 #include "config/model_export.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
+#include "expression/bound.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/drawn_arm.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
 #include "programs/command_model.hpp"
 #include "random/random_stream.hpp"
 #include "urdf/urdf_arm.hpp"

@@ -14,6 +14,7 @@
 #include "calibration/job.hpp"
 #include "calibration/shared_functions.hpp"
 #include "config/job_file.hpp"
+#include "data/certificate_fields.hpp"
 #include "data/text.hpp"
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"

@@ -1,5 +1,6 @@
 #include "config/scenario_file.hpp"
 
+#include "data/contacts.hpp"
 #include "data_files/robot_file.hpp"
 
 #include <Eigen/Core>

@@ -1,10 +1,15 @@
+#include "calibration/job.hpp"
 #include "config/job_file.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "errors/input_error.hpp"
 #include "yaml/yaml_node.hpp"

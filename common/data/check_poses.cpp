@@ -1,5 +1,7 @@
+#include <Eigen/Core>
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -7,9 +9,11 @@
 #include <vector>
 
 #include "data/columns.hpp"
+#include "data/data_set.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline data {

@@ -1,5 +1,7 @@
 #include "data/contacts.hpp"
 
+#include <utility>
+
 #include "errors/check.hpp"
 
 namespace demecal::inline data {

@@ -1,7 +1,9 @@
 #include "data_check/check_data.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <iterator>

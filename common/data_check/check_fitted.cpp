@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
 #include "data_check/explanations.hpp"
@@ -19,6 +22,8 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/declared_model.hpp"
+#include "parameters/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline data_check {

@@ -1,18 +1,24 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "data/contacts.hpp"
+#include "data/data_set.hpp"
 #include "data/written_steps.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/contact_place.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "prediction/only_places.hpp"
 #include "random/distributions.hpp"

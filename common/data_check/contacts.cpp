@@ -1,10 +1,19 @@
+#include "data/contacts.hpp"
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
+#include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "data_check/explanations.hpp"
 #include "data_check/trial_fit.hpp"

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -8,12 +9,15 @@
 #include <utility>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/posterior.hpp"
+#include "prediction/contact_place.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline data_check {

@@ -1,14 +1,17 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "data/spread_poses.hpp"
 #include "data_check/explanations.hpp"
 #include "data_check/finding.hpp"

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,6 +17,7 @@
 #include "data_check/searches.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/contact_place.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 

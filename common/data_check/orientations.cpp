@@ -1,9 +1,11 @@
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,7 @@
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
 

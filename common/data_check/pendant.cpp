@@ -1,8 +1,12 @@
 #include "data_check/pendant.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -15,8 +19,12 @@
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline data_check {
 namespace {

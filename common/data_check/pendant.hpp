@@ -1,6 +1,7 @@
 // Poses read off a controller's display against a description of its arm: what of the description does not fit.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 

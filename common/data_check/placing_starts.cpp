@@ -2,6 +2,7 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"

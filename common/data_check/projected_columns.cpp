@@ -1,7 +1,10 @@
 #include "data_check/projected_columns.hpp"
 
+#include "kinematics/chain.hpp"
+
 #include <algorithm>
 #include <cstddef>
+#include <vector>
 
 namespace demecal::inline data_check {
 

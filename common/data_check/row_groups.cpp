@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +15,7 @@
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "data_check/trial_fit.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
 

@@ -1,19 +1,23 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/contact_place.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 

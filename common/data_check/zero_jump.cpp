@@ -11,6 +11,7 @@
 #include "data_check/projected_columns.hpp"
 #include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
+#include "kinematics/chain.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline data_check {

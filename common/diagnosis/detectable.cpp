@@ -10,9 +10,11 @@
 #include <utility>
 
 #include "diagnosis/judgement.hpp"
+#include "effect_sets/fitted_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
+#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/smooth_corrections.hpp"

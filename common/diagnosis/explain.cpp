@@ -1,16 +1,23 @@
 #include "diagnosis/explain.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <functional>
 #include <set>
+#include <string>
 #include <utility>
 
+#include "data/data_set.hpp"
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/scan.hpp"
+#include "effect_sets/fitted_set.hpp"
+#include "effects/effect.hpp"
 #include "explanations/causes.hpp"
 #include "explanations/set_models.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -8,6 +8,8 @@
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/group.hpp"
+#include "diagnosis/outcome.hpp"
+#include "effect_sets/set_island.hpp"
 #include "explanations/error_budget.hpp"
 #include "explanations/explanation_search.hpp"
 #include "random/random_stream.hpp"

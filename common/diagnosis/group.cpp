@@ -10,6 +10,7 @@
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/scan.hpp"
 #include "effects/law_terms.hpp"
+#include "fitting/tall_products.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline diagnosis {

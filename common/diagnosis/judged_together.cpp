@@ -1,17 +1,32 @@
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
+#include "diagnosis/candidates.hpp"
 #include "diagnosis/explain.hpp"
+#include "diagnosis/group.hpp"
 #include "diagnosis/judgement.hpp"
+#include "diagnosis/outcome.hpp"
+#include "effect_sets/fitted_set.hpp"
+#include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
+#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "random/distributions.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
+#include "residuals/diagnosed_model.hpp"
 #include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

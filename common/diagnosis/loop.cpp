@@ -12,7 +12,10 @@
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/explain.hpp"
 #include "diagnosis/group.hpp"
+#include "diagnosis/scan.hpp"
 #include "effects/arm_state.hpp"
+#include "effects/effect.hpp"
+#include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_purpose.hpp"
@@ -99,11 +102,9 @@ void ClosedLoop::make_candidates(const Linearization& linearization) {
     const bool sides = candidate.decoy_kind == DecoyKind::shuffled_approach;
     const bool heat = candidate.decoy_kind == DecoyKind::shuffled_temperature;
     columns_.append(candidate.effect, problem_.data.robot, sides ? shuffled_approach : heat ? shuffled_heat : states);
-    if (candidate.decoy_kind == DecoyKind::none) {
-      ++outcome_.candidates;
-    } else {
-      outcome_.decoys.push_back({.name = decoy_name(candidate)});
-    }
+    const bool decoy = candidate.decoy_kind != DecoyKind::none;
+    outcome_.candidates += decoy ? 0 : 1;
+    if (decoy) outcome_.decoys.push_back({.name = decoy_name(candidate)});
   }
   columns_.pack();
 }

@@ -11,10 +11,13 @@
 #include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
+#include "effect_sets/set_island.hpp"
 #include "explanations/error_budget.hpp"
 #include "explanations/explanation_search.hpp"
+#include "explanations/set_models.hpp"
 #include "fitting/fit.hpp"
 #include "parameters/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 

@@ -1,7 +1,10 @@
 #include "diagnosis/loop.hpp"
+#include "next_measurement/next_measurement.hpp"
+#include "random/random_stream.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <functional>

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <map>
 #include <string>
 
 #include "decompositions/decompositions.hpp"
 #include "effects/effect.hpp"
 #include "expression/tree.hpp"
+#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
 #include "primitives/primitive.hpp"
 #include "residuals/noise.hpp"

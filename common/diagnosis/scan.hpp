@@ -9,6 +9,8 @@
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
+#include "effect_sets/fitted_set.hpp"
+#include "effects/effect.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"

@@ -10,6 +10,7 @@
 #include "calibration/calibration.hpp"
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
+#include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "data/data_set.hpp"
 #include "distal/index.hpp"

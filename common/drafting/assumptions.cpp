@@ -1,9 +1,13 @@
 #include "drafting/assumptions.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
+#include <ranges>
 
 #include "data/columns.hpp"
+#include "tables/guess_columns.hpp"
+#include "tables/read_table.hpp"
 
 namespace demecal::inline drafting {
 

@@ -2,14 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include "data/columns.hpp"
+#include "data/csv.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "drafting/assumptions.hpp"

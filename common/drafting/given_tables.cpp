@@ -1,6 +1,8 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "data/read_poses.hpp"
 #include "drafting/draft_data_set.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/drawn_arm.hpp"
 #include "tables/guess_columns.hpp"
 #include "tables/layout.hpp"

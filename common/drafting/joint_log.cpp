@@ -1,9 +1,19 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <filesystem>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "data/columns.hpp"
+#include "data/csv.hpp"
+#include "data/data_set.hpp"
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "data_files/data_set_file.hpp"
@@ -11,10 +21,14 @@
 #include "drafting/draft_data_set.hpp"
 #include "drafting/preparation_file.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
+#include "preparation/joint_log.hpp"
 #include "tables/guess_columns.hpp"
+#include "tables/layout.hpp"
 #include "tables/read_table.hpp"
 #include "tables/time_stamp.hpp"
 #include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal::inline drafting {
 namespace {

@@ -4,16 +4,22 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "data/columns.hpp"
+#include "data/contacts.hpp"
 #include "data/csv.hpp"
 #include "data/text.hpp"
 #include "data_files/data_set_file.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
+#include "planning/cell.hpp"
+#include "planning/information.hpp"
 #include "yaml/yaml_node.hpp"
 #include "yaml/yaml_text.hpp"
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "languages/languages.hpp"
+#include "planning/way.hpp"
 
 namespace demecal::inline drafting {
 

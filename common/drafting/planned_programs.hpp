@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinematics/chain.hpp"
 #include "parsed_programs/language.hpp"
 #include "planning/plan.hpp"
 

@@ -6,12 +6,14 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/csv.hpp"
 #include "data/data_set.hpp"
 #include "data_files/data_set_file.hpp"

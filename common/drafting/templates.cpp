@@ -1,19 +1,26 @@
 #include "drafting/templates.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <system_error>
 
+#include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/draft_data_set.hpp"
 #include "drafting/template_texts.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/drawn_arm.hpp"
 #include "languages/languages.hpp"
 #include "parsed_programs/language.hpp"
+#include "tables/guess_columns.hpp"
+#include "tables/read_table.hpp"
 #include "urdf/sdf_file.hpp"
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"

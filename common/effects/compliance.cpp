@@ -1,11 +1,13 @@
 // Joints that give way where gravity pushes them.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -19,6 +21,7 @@
 #include "effects/weight_parts.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "symbolic/algebra.hpp"
 
 namespace demecal::inline effects {
 namespace {
@@ -27,8 +30,7 @@ constexpr double kSamplePayload_kg = 1.0;
 const std::string kWithPayload = "with_payload", kGravityTurn = "gravity_turn";
 constexpr std::string_view kAgainstLoad =
     "The joint moves against its load, which nothing elastic does: see gravity_mps2, how the arm is mounted, its "
-    "masses "
-    "and payload. Do not correct programs before that is known.";
+    "masses and payload. Do not correct programs before that is known.";
 
 /// A joint that gives way where gravity pushes it. Forms: `masses`, by the torque of known masses and the payload;
 /// `payload`, of the payload alone; `moments`, of unknown masses, whose first moments times the compliance are the
@@ -123,8 +125,7 @@ std::vector<CoefficientLabel> ComplianceLaw::coefficients(const Effect& effect, 
 
 void ComplianceLaw::unit_motions(const Effect& effect, const Robot& robot, const ArmState& state,
                                  std::vector<UnitMotion>& motions) const {
-  const int joint = effect.joint;
-  int coefficient = 0;
+  int joint = effect.joint, coefficient = 0;
   const auto append = [&](double size) { append_joint_motion(robot, joint, coefficient++, size, motions); };
   if (effect.form == "payload") return append(payload_torque(robot, state, joint));
   if (effect.form == "moments") {
@@ -232,9 +233,8 @@ std::string ComplianceLaw::diagnosis(const Effect& effect, const Robot& robot) c
   if (effect.form != "moments") return gives_way + "by " + amount(effect.value(0)) + " of gravity's pull on it.";
   double largest = 0.0;
   const std::vector<WeightPart> parts = kept_parts(effect);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (std::size_t i = 0; i < parts.size(); ++i)
     if (parts[i].axis < 3 || !is_revolute(robot.chain, effect.joint)) largest += std::abs(effect.value(i));
-  }
   return gives_way + "under the weight of the links beyond it, whose masses are not known: by up to " +
          motion_text(robot, effect.joint, largest) + '.';
 }

@@ -14,6 +14,7 @@
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline explanations {

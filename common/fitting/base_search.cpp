@@ -19,6 +19,8 @@
 #include "fitting/least_squares.hpp"
 #include "kinematics/forward.hpp"
 #include "parameters/parameter_space.hpp"
+#include "prediction/contact_place.hpp"
+#include "prediction/measurement.hpp"
 
 namespace demecal::inline fitting {
 namespace {

@@ -1,15 +1,20 @@
 #include "fitting/stations.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
 
 namespace demecal::inline fitting {
 namespace {

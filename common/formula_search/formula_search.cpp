@@ -15,6 +15,7 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "expression/bound.hpp"
+#include "fitting/tall_products.hpp"
 #include "formula_search/rewrite.hpp"
 #include "kinematics/chain.hpp"
 #include "primitives/primitive.hpp"

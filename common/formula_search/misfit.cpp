@@ -11,6 +11,7 @@
 #include "primitives/columns.hpp"
 #include "primitives/primitive.hpp"
 #include "residuals/projection.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline formula_search {
 namespace {

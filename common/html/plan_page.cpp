@@ -1,9 +1,21 @@
+#include "data/data_set.hpp"
 #include "html/page.hpp"
+#include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
+#include "planning/cell.hpp"
+#include "planning/information.hpp"
+#include "planning/plan.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "html/chart.hpp"

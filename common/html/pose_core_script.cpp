@@ -1,3 +1,6 @@
+
+#include <string_view>
+
 #include "html/sections.hpp"
 
 namespace demecal::inline html {

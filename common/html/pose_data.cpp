@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <ranges>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "html/sections.hpp"
+#include "report/pose_places.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline html {

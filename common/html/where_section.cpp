@@ -6,10 +6,12 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "report/pose_places.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline html {

@@ -3,11 +3,14 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 #include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstdint>
+#include <ranges>
 #include <string_view>
+#include <system_error>
 
 #include "errors/check.hpp"
 #include "errors/input_error.hpp"

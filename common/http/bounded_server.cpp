@@ -5,7 +5,9 @@
 #include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstring>
+#include <ratio>
 #include <string>
 
 namespace demecal::inline http {

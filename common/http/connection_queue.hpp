@@ -3,6 +3,7 @@
 #pragma once
 
 #include <httplib.h>
+#include <algorithm>
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>

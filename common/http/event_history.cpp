@@ -1,6 +1,8 @@
 #include "http/event_history.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
 #include <map>
 #include <utility>
 

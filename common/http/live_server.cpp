@@ -1,11 +1,16 @@
 #include "http/live_server.hpp"
 
 #include <httplib.h>
+#include <atomic>
 #include <charconv>
 #include <chrono>
+#include <cstdint>
+#include <exception>
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>

@@ -1,6 +1,7 @@
 #include "kinematics/drawn_arm.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>

@@ -8,6 +8,7 @@
 
 #include "data/text.hpp"
 #include "kuka_abb_ur/krl_frames.hpp"
+#include "kuka_abb_ur/krl_statements.hpp"
 #include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/program_text.hpp"
 

@@ -19,6 +19,7 @@
 #include "kinematics/chain.hpp"
 #include "languages/fanuc_ls_motions.hpp"
 #include "languages/fanuc_ls_positions.hpp"
+#include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"

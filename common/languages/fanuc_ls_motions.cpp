@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "data/text.hpp"
+#include "parsed_programs/frame_flow.hpp"
 
 namespace demecal::inline languages {
 namespace {
@@ -29,9 +30,8 @@ std::size_t after_line_number(std::string_view code, std::size_t begin) {
 
 /// Whether a motion begins there: "L P[3] ...", "J PR[1] ...".
 bool is_motion_at(std::string_view code, std::size_t begin) {
-  constexpr std::string_view kKinds = "jJlLcCaA";
   if (begin + 1 >= code.size() || is_word_letter(code[begin + 1])) return false;
-  return kKinds.find(code[begin]) != std::string_view::npos;
+  return std::string_view("jJlLcCaA").find(code[begin]) != std::string_view::npos;
 }
 
 /// "7" of "[7:up]" that opens at or after `begin`; empty where it is no number.

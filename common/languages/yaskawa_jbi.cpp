@@ -17,6 +17,7 @@
 #include "kinematics/chain.hpp"
 #include "languages/labelled_way.hpp"
 #include "languages/yaskawa_jbi_way.hpp"
+#include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
@@ -57,10 +58,9 @@ class JobReader {
 
   Program read() {
     shifts_ = always_shifts_ = may_shift_anywhere();
-    for (std::size_t begin = 0; begin < code_.size();) {
-      const std::size_t end = std::min(code_.find('\n', begin), code_.size());
+    for (std::size_t begin = 0, end = 0; begin < code_.size(); begin = end + 1) {
+      end = std::min(code_.find('\n', begin), code_.size());
       read_line(begin, end);
-      begin = end + 1;
     }
     finish();
     return std::move(program_);

@@ -1,6 +1,9 @@
 #include "monitor/paced_events.hpp"
 
 #include <cmath>
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <variant>
 
 #include "monitor/events.hpp"
 #include "monitor/state_json.hpp"

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "evolution/archipelago.hpp"
 #include "monitor/watched.hpp"
 #include "protocol/messages.hpp"
 

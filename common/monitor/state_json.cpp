@@ -1,7 +1,10 @@
 #include "monitor/state_json.hpp"
 
 #include <cmath>
+#include <map>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "monitor/events.hpp"
 #include "report/json.hpp"

@@ -1,6 +1,7 @@
 // Events as JSON values, and what a watcher has seen so far as one JSON document, for programs and pages.
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 

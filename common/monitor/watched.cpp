@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "effect_sets/set_training.hpp"
 #include "fitness/fitness.hpp"
 #include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"

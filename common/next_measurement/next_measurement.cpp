@@ -12,6 +12,7 @@
 #include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
 #include "effects/law_terms.hpp"
+#include "fitting/tall_products.hpp"
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
 #include "parameters/declared_model.hpp"

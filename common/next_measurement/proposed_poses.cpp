@@ -1,4 +1,5 @@
 #include "decompositions/decompositions.hpp"
+#include "fitting/tall_products.hpp"
 #include "next_measurement/next_measurement.hpp"
 
 #include <Eigen/Core>

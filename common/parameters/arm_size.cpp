@@ -1,7 +1,10 @@
 #include "parameters/arm_size.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -9,6 +12,7 @@
 #include "decompositions/decompositions.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline parameters {
 namespace {

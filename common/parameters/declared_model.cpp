@@ -8,9 +8,11 @@
 #include <set>
 #include <sstream>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
 #include "errors/check.hpp"
+#include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 

@@ -1,4 +1,5 @@
 #include "decompositions/decompositions.hpp"
+#include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
 
 #include <Eigen/Core>
@@ -7,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "errors/check.hpp"
 

@@ -1,12 +1,20 @@
 #include "parameters/observation.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
+#include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "effects/arm_state.hpp"
+#include "parameters/declared_model.hpp"
 #include "pieces/pieces.hpp"
+#include "prediction/contact_place.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline parameters {

@@ -1,6 +1,7 @@
 #include "parameters/parameter_space.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
 #include "parameters/arm_size.hpp"
+#include "prediction/contact_place.hpp"
 
 namespace demecal::inline parameters {
 namespace {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"

@@ -2,9 +2,14 @@
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "errors/check.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"

@@ -7,19 +7,23 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <numeric>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "parameters/parameter_space.hpp"
+#include "prediction/contact_place.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 

@@ -2,12 +2,23 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
+#include "effects/effect.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
+#include "planning/way.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline planning {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "planning/cell.hpp"
 #include "planning/information.hpp"
 #include "planning/plan.hpp"

@@ -1,11 +1,14 @@
 #include "planning/candidates.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <ranges>
 #include <string>
 #include <utility>
 
 #include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
+#include "kinematics/chain.hpp"
 #include "planning/travel.hpp"
 
 namespace demecal::inline planning {

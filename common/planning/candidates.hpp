@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "effects/effect.hpp"
+#include "expression/bound.hpp"
 #include "planning/cell.hpp"
 #include "planning/information.hpp"
 #include "random/random_stream.hpp"

@@ -6,7 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
+#include "expression/bound.hpp"
+#include "kinematics/chain.hpp"
 #include "planning/sockets.hpp"
 #include "planning/travel.hpp"
 

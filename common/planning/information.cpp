@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 #include <utility>
 
 #include "decompositions/decompositions.hpp"
@@ -15,6 +16,7 @@
 #include "kinematics/forward.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"
+#include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 

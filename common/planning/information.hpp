@@ -10,6 +10,7 @@
 
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
+#include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <span>
@@ -17,6 +18,7 @@
 #include "planning/sockets.hpp"
 #include "planning/stops.hpp"
 #include "random/random_purpose.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal::inline planning {
 namespace {

@@ -1,6 +1,7 @@
 // A measurement planned before its first pose: which poses, in which order, and what they will tell.
 #pragma once
 
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
 #include "errors/input_error.hpp"

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "data/data_set.hpp"
 #include "planning/travel.hpp"
 
 namespace demecal::inline planning {

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "kinematics/chain.hpp"
 #include "planning/cell.hpp"
 
 namespace demecal::inline planning {

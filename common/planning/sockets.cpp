@@ -1,10 +1,12 @@
 #include "planning/sockets.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <ranges>
 #include <string>
 #include <utility>
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/contacts.hpp"
+#include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
 #include "planning/cell.hpp"
 #include "planning/information.hpp"

@@ -1,12 +1,14 @@
 #include "planning/stops.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "kinematics/chain.hpp"
 #include "planning/travel.hpp"
 #include "planning/way.hpp"
 

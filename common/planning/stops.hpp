@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "planning/cell.hpp"
+#include "planning/information.hpp"
 #include "planning/plan.hpp"
 #include "random/random_stream.hpp"
 

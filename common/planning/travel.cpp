@@ -1,9 +1,13 @@
 #include "planning/travel.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
 #include "kinematics/units.hpp"
 
 namespace demecal::inline planning {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "kinematics/chain.hpp"
 #include "planning/cell.hpp"
 #include "planning/information.hpp"
 

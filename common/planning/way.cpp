@@ -1,11 +1,14 @@
 #include "planning/way.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <numeric>
 #include <optional>
 #include <utility>
 
+#include "data/data_set.hpp"
+#include "expression/bound.hpp"
 #include "planning/roadmap.hpp"
 #include "planning/travel.hpp"
 

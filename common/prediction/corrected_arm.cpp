@@ -1,5 +1,6 @@
 #include "prediction/corrected_arm.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "data/data_set.hpp"

@@ -8,7 +8,9 @@
 #include <span>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline prediction {

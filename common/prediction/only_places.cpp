@@ -1,5 +1,9 @@
 #include "prediction/only_places.hpp"
 
+#include <map>
+#include <optional>
+#include <vector>
+
 #include "prediction/contact_place.hpp"
 
 namespace demecal::inline prediction {

@@ -1,8 +1,19 @@
+#include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
+#include "preparation/joint_log.hpp"
 #include "preparation/recorded_contacts.hpp"
+#include "preparation/touched_places.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <map>
+#include <optional>
+#include <ranges>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"

@@ -2,6 +2,7 @@
 // through them, and their noise.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>

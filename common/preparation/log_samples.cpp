@@ -1,8 +1,12 @@
+#include "kinematics/chain.hpp"
 #include "preparation/joint_log.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "random/distributions.hpp"
 

@@ -1,14 +1,18 @@
 #include "preparation/recorded_contacts.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
 #include <utility>
 
 #include "data/read_poses.hpp"
 #include "errors/check.hpp"
+#include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "preparation/touched_places.hpp"

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "preparation/joint_log.hpp"

@@ -1,18 +1,26 @@
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/csv.hpp"
+#include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "preparation/joint_log.hpp"
 #include "preparation/recorded_contacts.hpp"
+#include "preparation/results.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal::inline preparation {

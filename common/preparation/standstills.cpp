@@ -1,9 +1,13 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 #include <tuple>
 #include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "errors/check.hpp"
 #include "kinematics/chain.hpp"
 #include "preparation/joint_log.hpp"

@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "kinematics/units.hpp"
+#include "parsed_programs/program_text.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline programs {
 namespace {

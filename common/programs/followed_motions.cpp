@@ -1,12 +1,16 @@
 #include "programs/followed_motions.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <set>
+#include <type_traits>
 #include <utility>
 
 #include "kinematics/chain.hpp"

@@ -1,6 +1,7 @@
 // The arm followed through a program: how it comes to every target, whatever way the program takes there.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <set>
 #include <string>

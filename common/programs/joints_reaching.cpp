@@ -1,3 +1,4 @@
+#include "kinematics/chain.hpp"
 #include "programs/configuration.hpp"
 
 #include <Eigen/Core>

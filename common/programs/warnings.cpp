@@ -1,3 +1,4 @@
+#include "parameters/posterior.hpp"
 #include "programs/correct_program.hpp"
 
 #include <Eigen/Core>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>

@@ -2,6 +2,8 @@
 #include "effect_sets/set_training.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/population.hpp"
+#include "expression/tree.hpp"
+#include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"
 #include "protocol/messages.hpp"
 
@@ -9,7 +11,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>

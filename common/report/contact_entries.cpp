@@ -1,18 +1,26 @@
 #include <fmt/format.h>
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
+#include <ranges>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
+#include "report/pose_places.hpp"
+#include "report/report.hpp"
 
 namespace demecal::inline report {
 namespace {

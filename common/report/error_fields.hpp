@@ -3,6 +3,7 @@
 
 #include "report/evaluation.hpp"
 #include "report/json.hpp"
+#include "report/pose_places.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline report {

@@ -17,6 +17,7 @@
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "report/pose_places.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline report {

@@ -15,6 +15,10 @@
 #include "data/csv.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "expression/text.hpp"
+#include "expression/tree.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "report/pose_places.hpp"
 
 namespace demecal::inline report {
 namespace {

@@ -1,14 +1,19 @@
+#include "explanations/causes.hpp"
+#include "explanations/error_budget.hpp"
 #include "report/make_report.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <optional>
+#include <ranges>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 

@@ -1,4 +1,5 @@
 #include "report/figures.hpp"
+#include "report/pose_places.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -9,6 +10,8 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <ranges>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>

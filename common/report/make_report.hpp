@@ -20,6 +20,7 @@
 #include "explanations/error_budget.hpp"
 #include "fitting/fit.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "report/pose_places.hpp"
 #include "report/report.hpp"
 #include "structure/structure_fit.hpp"
 

@@ -2,12 +2,18 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
+#include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/corrected_robot.hpp"
+#include "prediction/measurement.hpp"
 #include "report/make_report.hpp"
 
 namespace demecal::inline report {

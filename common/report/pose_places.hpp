@@ -2,6 +2,7 @@
 // missed, and the arm that was there.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>

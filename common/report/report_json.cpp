@@ -11,6 +11,7 @@
 #include "expression/bound.hpp"
 #include "report/error_fields.hpp"
 #include "report/json.hpp"
+#include "report/pose_places.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline report {

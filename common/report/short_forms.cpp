@@ -1,12 +1,23 @@
+#include "data/data_set.hpp"
+#include "kinematics/angles.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "report/make_report.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <initializer_list>
 #include <iterator>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "calibration/calibration.hpp"
 #include "calibration/selection.hpp"

@@ -11,6 +11,7 @@
 #include "data/data_set.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"

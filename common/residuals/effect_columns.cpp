@@ -1,11 +1,16 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
+#include <map>
 #include <utility>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "effect_sets/fitted_set.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "errors/check.hpp"
+#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
 #include "residuals/residual_field.hpp"
 

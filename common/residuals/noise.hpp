@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "fitting/tall_products.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"

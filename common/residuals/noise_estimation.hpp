@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "decompositions/decompositions.hpp"
+#include "fitting/tall_products.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 

@@ -13,8 +13,10 @@
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/tall_products.hpp"
+#include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
+#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline residuals {
 

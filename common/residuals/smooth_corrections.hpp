@@ -9,6 +9,7 @@
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
+#include "fitting/tall_products.hpp"
 #include "kinematics/angles.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "effects/arm_state.hpp"
+#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"

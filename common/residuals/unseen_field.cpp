@@ -1,12 +1,19 @@
 #include <Eigen/Core>
 #include <algorithm>
+#include <cstddef>
 #include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
 #include "fitting/fit.hpp"
+#include "fitting/tall_products.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/parameter_space.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "residuals/residual_field.hpp"
 

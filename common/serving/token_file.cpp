@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "errors/input_error.hpp"
 #include "serving/job_queue.hpp"

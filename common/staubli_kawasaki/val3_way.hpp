@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 
 #include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/program.hpp"

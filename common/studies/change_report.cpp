@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "data/certificate_fields.hpp"
 #include "data/columns.hpp"
 #include "data/csv.hpp"
 #include "data/text.hpp"

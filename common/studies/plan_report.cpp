@@ -1,14 +1,26 @@
 #include "studies/plan_report.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <string_view>
 
+#include "data/contacts.hpp"
 #include "effects/catalogue.hpp"
+#include "effects/effect.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "next_measurement/next_measurement.hpp"
+#include "planning/cell.hpp"
+#include "planning/information.hpp"
+#include "planning/sockets.hpp"
+#include "planning/way.hpp"
 
 namespace demecal::inline studies {
 namespace {

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "parameters/declared_model.hpp"
 #include "planning/plan.hpp"
 
 namespace demecal::inline studies {

@@ -4,8 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "symbolic/algebra.hpp"
 #include "symbolic/calculus.hpp"
 #include "symbolic/code.hpp"
+#include "symbolic/parse_expression.hpp"
 #include "symbolic/printing.hpp"
 
 namespace demecal::inline symbolic {

@@ -3,10 +3,16 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <ranges>
+#include <string>
+#include <utility>
 #include <vector>
 
+#include "data/csv.hpp"
 #include "data/text.hpp"
 #include "decompositions/decompositions.hpp"
 #include "errors/input_error.hpp"

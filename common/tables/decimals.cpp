@@ -1,7 +1,13 @@
+#include "data/csv.hpp"
 #include "tables/layout.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"

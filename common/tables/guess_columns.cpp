@@ -4,6 +4,7 @@
 #include <array>
 #include <initializer_list>
 #include <numbers>
+#include <optional>
 #include <string_view>
 #include <utility>
 

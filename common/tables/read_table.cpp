@@ -1,6 +1,7 @@
 #include "tables/read_table.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <utility>

@@ -6,9 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "data/data_set.hpp"
 #include "kinematics/units.hpp"
+#include "planning/information.hpp"
 #include "report/evaluation.hpp"
 #include "report/figures.hpp"
+#include "report/pose_places.hpp"
 #include "studies/plan_report.hpp"
 #include "terminal/text.hpp"
 

@@ -4,17 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "data/written_steps.hpp"
 #include "decompositions/decompositions.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "next_measurement/next_measurement.hpp"
+#include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
+#include "parameters/posterior.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 #include "updating/joint_rounding.hpp"
@@ -91,8 +96,7 @@ class ChangeSearch {
       report_.noise_m = std::max(1e-6, fit.sigma_position_m);
       report_.not_testable.emplace_back(
           "The model states no noise (it is of an older version): that of these poses themselves is taken, so that "
-          "small "
-          "changes may be missed.");
+          "small changes may be missed.");
     }
   }
 
@@ -141,8 +145,7 @@ class ChangeSearch {
       for (const std::size_t pose : poses_) sum += std::pow(tool_error_m(robot_, data_, data_.poses[pose]), 2.0);
       return std::sqrt(sum / static_cast<double>(poses_.size()));
     }
-    const double share = explained.squaredNorm() / std::max(rows.values.squaredNorm(), 1e-30);
-    return report_.error_m * std::sqrt(share);
+    return report_.error_m * std::sqrt(explained.squaredNorm() / std::max(rows.values.squaredNorm(), 1e-30));
   }
 
   /// What is known of the noise's size counts as so many rows more.
@@ -186,12 +189,9 @@ class ChangeSearch {
           std::max(report_.verdict, cause.is_registration ? ChangeVerdict::registration : ChangeVerdict::changed);
     if (report_.set_up_anew) report_.verdict = std::max(report_.verdict, ChangeVerdict::registration);
     report_.more = !report_.found.empty() && strain_of(rows) > report_.strain_limit;
-    if (report_.more) report_.verdict = ChangeVerdict::changed;
-    if (report_.found.empty() && report_.p_any < kErrorOfAny) {
-      report_.verdict = ChangeVerdict::changed;
-      report_.unnamed = true;
-      report_.left_m = report_.error_m;
-    }
+    report_.unnamed = report_.found.empty() && report_.p_any < kErrorOfAny;
+    if (report_.unnamed) report_.left_m = report_.error_m;
+    if (report_.more || report_.unnamed) report_.verdict = ChangeVerdict::changed;
     return fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
   }
 
@@ -237,8 +237,7 @@ class ChangeSearch {
       const Eigen::VectorXd values = qr.solve(rows.values);
       cause.effect.values.assign(values.begin(), values.end());
       const double left = (rows.values - columns * values).squaredNorm();
-      const double freedom = known_rows() + n - rank;
-      const double variance = (known_rows() + left) / freedom;
+      const double freedom = known_rows() + n - rank, variance = (known_rows() + left) / freedom;
       cause.p_value = fisher_p_value(std::max(0.0, whole - left) / rank / variance, rank, freedom);
       fill_size(columns, std::sqrt(variance), cause);
       scored.push_back({(known_rows() + n) * std::log(known_rows() + left) + rank * std::log(n), std::move(cause)});

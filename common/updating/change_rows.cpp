@@ -1,8 +1,25 @@
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
+#include "data/written_steps.hpp"
 #include "decompositions/decompositions.hpp"
+#include "effects/effect.hpp"
+#include "fitting/tall_products.hpp"
+#include "kinematics/chain.hpp"
+#include "parameters/declared_model.hpp"
+#include "parameters/observation.hpp"
+#include "parameters/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "updating/change.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "diagnosis/candidates.hpp"
 #include "parameters/parameter_space.hpp"

@@ -4,11 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
+#include <type_traits>
+#include <utility>
 
+#include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "primitives/primitive.hpp"
 

@@ -5,16 +5,28 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "calibration/calibration.hpp"
+#include "calibration/job.hpp"
+#include "calibration/joint_targets.hpp"
+#include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
+#include "effects/effect.hpp"
 #include "errors/input_error.hpp"
+#include "expression/bound.hpp"
+#include "fitting/fit.hpp"
+#include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
+#include "parameters/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "updating/fleet_curves.hpp"
 #include "updating/fleet_numbers.hpp"
 

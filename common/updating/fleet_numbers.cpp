@@ -4,12 +4,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "decompositions/decompositions.hpp"
+#include "expression/bound.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/chain.hpp"
 #include "parameters/parameter_space.hpp"
+#include "parameters/posterior.hpp"
 
 namespace demecal::inline updating {
 namespace {

@@ -4,14 +4,24 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
+#include <optional>
+#include <ranges>
 #include <set>
+#include <utility>
 
 #include "decompositions/decompositions.hpp"
+#include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
+#include "expression/bound.hpp"
 #include "expression/tree.hpp"
 #include "fitting/fit.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/parameter_space.hpp"
+#include "parameters/posterior.hpp"
 #include "primitives/primitive.hpp"
 #include "random/random_stream.hpp"
 #include "updating/fleet_curves.hpp"

@@ -3,14 +3,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
+#include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"

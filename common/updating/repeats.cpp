@@ -1,9 +1,12 @@
 #include "updating/repeats.hpp"
 
+#include "kinematics/chain.hpp"
+
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string>
 
 namespace demecal::inline updating {
 namespace {

@@ -4,6 +4,12 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <span>
+#include <type_traits>
+#include <vector>
 
 namespace demecal::inline updating {
 namespace {

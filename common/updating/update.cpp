@@ -5,14 +5,23 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
+#include <span>
+#include <string_view>
 
 #include "decompositions/decompositions.hpp"
+#include "effects/effect.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/tall_products.hpp"
+#include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
+#include "parameters/posterior.hpp"
 #include "random/distributions.hpp"
+#include "residuals/residual_field.hpp"
+#include "residuals/smooth_corrections.hpp"
 
 namespace demecal::inline updating {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
+#include "fitting/fit.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"

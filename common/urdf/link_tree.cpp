@@ -1,7 +1,12 @@
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
+#include <vector>
 
 #include "data/text.hpp"
 #include "errors/check.hpp"

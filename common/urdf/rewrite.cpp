@@ -1,10 +1,22 @@
+#include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
+#include "kinematics/drawn_arm.hpp"
 #include "urdf/urdf_arm.hpp"
+#include "urdf/urdf_file.hpp"
+#include "urdf/xml.hpp"
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "data/text.hpp"
 #include "kinematics/units.hpp"

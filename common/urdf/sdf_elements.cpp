@@ -3,8 +3,11 @@
 #include <cmath>
 #include <string_view>
 #include <utility>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "kinematics/drawn_arm.hpp"
 #include "urdf/sdf_frames.hpp"
 
 namespace demecal::inline urdf {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "urdf/urdf_file.hpp"
+#include "urdf/xml.hpp"
 #include "urdf/xml_values.hpp"
 
 namespace demecal::inline urdf {

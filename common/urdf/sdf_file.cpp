@@ -1,12 +1,16 @@
 #include "urdf/sdf_file.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <ranges>
 #include <utility>
 #include <vector>
 
+#include "data/data_set.hpp"
+#include "kinematics/drawn_arm.hpp"
 #include "urdf/sdf_elements.hpp"
 #include "urdf/sdf_frames.hpp"
 #include "urdf/xml_values.hpp"

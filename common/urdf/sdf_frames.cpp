@@ -1,9 +1,12 @@
 #include "urdf/sdf_frames.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string_view>
+#include <utility>
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"

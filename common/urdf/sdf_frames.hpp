@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "kinematics/drawn_arm.hpp"
+#include "urdf/xml.hpp"
 #include "urdf/xml_values.hpp"
 
 namespace demecal::inline urdf {

@@ -1,7 +1,16 @@
+#include "kinematics/drawn_arm.hpp"
 #include "urdf/urdf_arm.hpp"
+#include "urdf/urdf_file.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"

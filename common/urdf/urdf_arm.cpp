@@ -1,9 +1,12 @@
 #include "urdf/urdf_arm.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <ranges>
+#include <string_view>
 #include <utility>
 
 #include "data/text.hpp"

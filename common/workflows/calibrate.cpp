@@ -1,5 +1,6 @@
 #include "workflows/workflows.hpp"
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <atomic>

@@ -1,6 +1,10 @@
+#include "explanations/error_budget.hpp"
+#include "explanations/explanation_search.hpp"
+#include "kinematics/forward.hpp"
 #include "workflows/workflows.hpp"
 
 #include <fmt/format.h>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>

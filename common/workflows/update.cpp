@@ -1,18 +1,30 @@
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
+#include "calibration/job.hpp"
+#include "calibration/joint_targets.hpp"
 #include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
 #include "diagnosis/loop.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
+#include "kinematics/angles.hpp"
+#include "kinematics/chain.hpp"
+#include "parameters/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "report/make_report.hpp"
 #include "updating/update.hpp"
 #include "workflows/workflows.hpp"
 

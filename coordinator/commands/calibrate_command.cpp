@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -25,6 +26,7 @@
 #include "data_files/robot_file.hpp"
 #include "dds/dds_transport.hpp"
 #include "diagnosis/outcome.hpp"
+#include "effect_sets/set_island.hpp"
 #include "errors/input_error.hpp"
 #include "parameters/declared_model.hpp"
 #include "protocol/messages.hpp"
@@ -56,9 +58,8 @@ Job job_of(const CalibrateRequest& request) {
   if (request.seed) job.seed = *request.seed;
   if (request.max_effects) job.closed_loop.max_effects = *request.max_effects;
   if (!request.data_file.empty()) job.data_files = {request.data_file};
-  for (const Method method : {Method::direct, Method::distal, Method::diagnose, Method::structural}) {
+  for (const Method method : {Method::direct, Method::distal, Method::diagnose, Method::structural})
     if (request.method == to_string(method)) job.method = method;
-  }
   if (!request.declared.empty()) job.declared = declared_model(request.declared);
   if (request.no_evolution) {
     if (job.method == Method::structural)
@@ -275,9 +276,9 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(not_negative());
   command->add_option("--data", request->data_file, "data set in place of the job's");
-  command->add_option("--prior", request->prior_file,
-                      "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free; "
-                      "nothing is evolved");
+  command->add_option(
+      "--prior", request->prior_file,
+      "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free; nothing is evolved");
   command
       ->add_option("--declare", request->declared,
                    "LIST of what the model contains, in place of the job's or, with --prior, of the prior's")

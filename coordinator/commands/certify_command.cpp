@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,12 @@
 #include "data_check/finding.hpp"
 #include "data_files/data_set_file.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/stations.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/posterior.hpp"
+#include "prediction/corrected_robot.hpp"
 #include "report/evaluation.hpp"
+#include "report/report.hpp"
 #include "terminal/report_text.hpp"
 #include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"

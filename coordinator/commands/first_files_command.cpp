@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "coordinator/commands.hpp"
@@ -17,10 +20,12 @@
 #include "drafting/draft_data_set.hpp"
 #include "drafting/templates.hpp"
 #include "errors/input_error.hpp"
+#include "kinematics/chain.hpp"
 #include "report/evaluation.hpp"
 #include "tables/layout.hpp"
 #include "terminal/report_text.hpp"
 #include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {

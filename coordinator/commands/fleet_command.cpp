@@ -2,13 +2,20 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "calibration/calibration.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
+#include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "updating/fleet_model.hpp"
 #include "yaml/files.hpp"

@@ -1,11 +1,18 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -13,6 +20,7 @@
 #include "config/job_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "data/data_set.hpp"
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/planned_files.hpp"
@@ -24,6 +32,7 @@
 #include "languages/languages.hpp"
 #include "parameters/declared_model.hpp"
 #include "parsed_programs/language.hpp"
+#include "planning/cell.hpp"
 #include "planning/plan.hpp"
 #include "studies/plan_report.hpp"
 #include "terminal/report_text.hpp"

@@ -1,8 +1,20 @@
+#include "calibration/job.hpp"
+#include "closed_calibration/calibrated_model.hpp"
 #include "coordinator/commands.hpp"
+#include "data/data_set.hpp"
+#include "data_check/finding.hpp"
+#include "diagnosis/outcome.hpp"
+#include "errors/input_error.hpp"
+#include "parameters/declared_model.hpp"
+#include "report/make_report.hpp"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <atomic>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "config/model_file.hpp"
 #include "coordinator/displays.hpp"

@@ -1,13 +1,17 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -61,8 +65,8 @@ struct ShowOptions {
 JointVector joints_asked(const std::string& at, const Chain& chain) {
   std::vector<double> values;
   if (at.empty()) return JointVector::Zero(chain.size());
-  for (std::size_t begin = 0; begin <= at.size();) {
-    const std::size_t end = std::min(at.find(',', begin), at.size());
+  for (std::size_t begin = 0, end = 0; begin <= at.size(); begin = end + 1) {
+    end = std::min(at.find(',', begin), at.size());
     std::string field = at.substr(begin, end - begin);
     std::erase_if(field, [](char c) { return c == ' ' || c == '[' || c == ']'; });
     const auto value = parse_number(field);
@@ -70,7 +74,6 @@ JointVector joints_asked(const std::string& at, const Chain& chain) {
       throw ArgumentError(
           fmt::format("--at {}: '{}' is no number; give one per joint, separated by commas", at, field));
     values.push_back(*value);
-    begin = end + 1;
   }
   if (std::ssize(values) != chain.size())
     throw ArgumentError(fmt::format("--at {}: {} numbers, but the arm has {} joints", at, values.size(), chain.size()));
@@ -151,10 +154,9 @@ void print_joints(const Robot& robot) {
                is_revolute(chain.joints[i]) ? "revolute" : "prismatic", limits_text(chain.joints[i]),
                reversed ? "  (counts the other way)" : "");
   }
-  for (const CommandCoupling& coupling : chain.couplings) {
+  for (const CommandCoupling& coupling : chain.couplings)
     fmt::print("  joint {} is also turned by {:g} times the command of joint {}\n", coupling.joint + 1, coupling.factor,
                coupling.from + 1);
-  }
 }
 
 void print_pose(const Robot& robot, const JointVector& q, const Eigen::Isometry3d& flange) {

@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <ranges>
 #include <system_error>
 #include <utility>
 

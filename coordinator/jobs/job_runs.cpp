@@ -2,11 +2,18 @@
 #include <chrono>
 #include <cstdint>
 #include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include "coordinator/child_process.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/jobs/job_folders.hpp"
 #include "coordinator/jobs/job_service.hpp"
+#include "serving/job_queue.hpp"
 
 namespace demecal {
 namespace {
