@@ -12,10 +12,10 @@
 #include "calibration/job.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/stations.hpp"
 #include "terminal/report_text.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal {
 

@@ -21,7 +21,6 @@
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/finding.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
@@ -30,6 +29,7 @@
 #include "protocol/messages.hpp"
 #include "report/history.hpp"
 #include "report/make_report.hpp"
+#include "trials/finding.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {

@@ -16,11 +16,11 @@
 
 #include "data/read_poses.hpp"
 #include "data/spread_poses.hpp"
-#include "data_check/explanations.hpp"
 #include "data_check/searches.hpp"
-#include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "trials/explanations.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

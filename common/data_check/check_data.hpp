@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline data_check {
 

@@ -14,10 +14,7 @@
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/explanations.hpp"
-#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
-#include "data_check/trial_fit.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -25,6 +22,9 @@
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/distributions.hpp"
+#include "trials/explanations.hpp"
+#include "trials/finding.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

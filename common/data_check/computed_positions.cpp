@@ -12,9 +12,7 @@
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data/written_steps.hpp"
-#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
-#include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/contact_place.hpp"
@@ -22,6 +20,8 @@
 #include "prediction/measurement.hpp"
 #include "prediction/only_places.hpp"
 #include "random/distributions.hpp"
+#include "trials/finding.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -1,10 +1,10 @@
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "trials/finding.hpp"
 
 #include <fmt/format.h>
 #include <Eigen/Core>
@@ -15,13 +15,13 @@
 #include <utility>
 #include <vector>
 
-#include "data_check/explanations.hpp"
-#include "data_check/trial_fit.hpp"
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
+#include "trials/explanations.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -13,11 +13,11 @@
 
 #include "data/data_set.hpp"
 #include "data/text.hpp"
-#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "decompositions/decompositions.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline data_check {
 namespace {

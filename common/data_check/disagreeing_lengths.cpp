@@ -11,7 +11,6 @@
 
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/units.hpp"
@@ -19,6 +18,7 @@
 #include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline data_check {
 namespace {

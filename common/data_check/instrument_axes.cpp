@@ -13,13 +13,13 @@
 
 #include "data/data_set.hpp"
 #include "data/spread_poses.hpp"
-#include "data_check/explanations.hpp"
-#include "data_check/finding.hpp"
-#include "data_check/joint_side.hpp"
 #include "data_check/searches.hpp"
-#include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "kinematics/units.hpp"
+#include "trials/explanations.hpp"
+#include "trials/finding.hpp"
+#include "trials/joint_side.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

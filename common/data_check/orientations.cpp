@@ -12,13 +12,13 @@
 
 #include "data/data_set.hpp"
 #include "data/spread_poses.hpp"
-#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
-#include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
+#include "trials/finding.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -13,9 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "data_check/explanations.hpp"
-#include "data_check/finding.hpp"
-#include "data_check/trial_fit.hpp"
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/angles.hpp"
@@ -25,6 +22,9 @@
 #include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "trials/explanations.hpp"
+#include "trials/finding.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -14,14 +14,14 @@
 
 #include "data/data_set.hpp"
 #include "data/written_steps.hpp"
-#include "data_check/finding.hpp"
-#include "data_check/point_pairs.hpp"
-#include "data_check/projected_columns.hpp"
 #include "data_check/searches.hpp"
-#include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "trials/finding.hpp"
+#include "trials/point_pairs.hpp"
+#include "trials/projected_columns.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "data_check/explanations.hpp"
-#include "data_check/finding.hpp"
 #include "data_check/searches.hpp"
-#include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "random/distributions.hpp"
+#include "trials/explanations.hpp"
+#include "trials/finding.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 namespace {

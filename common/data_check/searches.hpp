@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
-#include "data_check/trial_fit.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "trials/finding.hpp"
+#include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
 

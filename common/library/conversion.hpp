@@ -10,11 +10,11 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/chain.hpp"
 #include "library/demecal.hpp"
 #include "programs/command_model.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline library {
 

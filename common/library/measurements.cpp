@@ -15,7 +15,6 @@
 #include "data/read_poses.hpp"
 #include "data/text.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/finding.hpp"
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"
 #include "effects/arm_state.hpp"
@@ -26,6 +25,7 @@
 #include "library/conversion.hpp"
 #include "library/demecal.hpp"
 #include "random/random_stream.hpp"
+#include "trials/finding.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal::inline library {

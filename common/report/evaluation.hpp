@@ -13,12 +13,12 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/pose_places.hpp"
 #include "report/report.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline report {
 

@@ -13,7 +13,6 @@
 #include "calibration/selection.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "diagnosis/outcome.hpp"
 #include "distal/steps.hpp"
 #include "effects/effect.hpp"
@@ -23,6 +22,7 @@
 #include "report/pose_places.hpp"
 #include "report/report.hpp"
 #include "structure/structure_fit.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline report {
 

@@ -19,7 +19,6 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/closing.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "diagnosis/loop.hpp"
 #include "diagnosis/outcome.hpp"
 #include "distal/steps.hpp"
@@ -39,6 +38,7 @@
 #include "scheduling/worker_pool.hpp"
 #include "structure/structure_fit.hpp"
 #include "studies/study.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline workflows {
 /// Told what happens in a calibration, as it happens. The result does not depend on it.

@@ -22,7 +22,6 @@
 #include "coordinator/result_folder.hpp"
 #include "coordinator/workers.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "data_files/robot_file.hpp"
 #include "dds/dds_transport.hpp"
 #include "diagnosis/outcome.hpp"
@@ -37,6 +36,7 @@
 #include "scheduling/run_journal.hpp"
 #include "scheduling/run_state.hpp"
 #include "terminal/report_text.hpp"
+#include "trials/finding.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 

@@ -24,7 +24,6 @@
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
-#include "data_check/finding.hpp"
 #include "diagnosis/outcome.hpp"
 #include "drafting/planned_files.hpp"
 #include "effect_sets/set_island.hpp"
@@ -40,6 +39,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "scheduling/run_state.hpp"
 #include "terminal/report_text.hpp"
+#include "trials/finding.hpp"
 #include "updating/fleet_model.hpp"
 #include "workflows/workflows.hpp"
 

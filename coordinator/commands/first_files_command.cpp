@@ -14,7 +14,6 @@
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
-#include "data_check/finding.hpp"
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/draft_data_set.hpp"
@@ -24,6 +23,7 @@
 #include "report/evaluation.hpp"
 #include "tables/layout.hpp"
 #include "terminal/report_text.hpp"
+#include "trials/finding.hpp"
 #include "yaml/files.hpp"
 #include "yaml/yaml_node.hpp"
 

@@ -2,11 +2,11 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "coordinator/commands.hpp"
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
 #include "parameters/declared_model.hpp"
 #include "report/make_report.hpp"
+#include "trials/finding.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -41,7 +41,7 @@ bool means_something_else(const std::string& kind, const std::string& path) {
       {"common/parameters/declared_model.cpp",
        {"registration", "tool", "joint_offset", "geometry"}},           // what jobs declare
       {"common/baselines/baseline.cpp", {"registration", "geometry"}},  // names of baselines
-      {"common/data_check/finding.cpp", {"joint_offset"}},              // kinds of findings
+      {"common/trials/finding.cpp", {"joint_offset"}},                  // kinds of findings
       {"common/updating/change.cpp", {"registration"}}};                // a verdict
   const auto words = elsewhere.find(path);
   const std::string room = path.substr(0, path.rfind('/'));

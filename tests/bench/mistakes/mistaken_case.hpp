@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::bench {
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "closed_loop/run_case.hpp"
-#include "data_check/finding.hpp"
 #include "noise_case.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::bench {
 

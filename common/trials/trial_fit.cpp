@@ -1,4 +1,4 @@
-#include "data_check/trial_fit.hpp"
+#include "trials/trial_fit.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -15,7 +15,7 @@
 #include "parameters/declared_model.hpp"
 #include "random/distributions.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 constexpr double kSmallestScale_m = 1e-6;
@@ -282,4 +282,4 @@ Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eige
   return motion;
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -3,9 +3,9 @@
 
 #include <Eigen/Core>
 
-#include "data_check/trial_fit.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 inline constexpr double kJointSideDeviation = 1e-3;  ///< rad or m: how much of each column an arm may have
 
@@ -27,4 +27,4 @@ class JointSide {
   double reach_m_ = 1.0;
 };
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

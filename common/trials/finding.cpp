@@ -1,4 +1,4 @@
-#include "data_check/finding.hpp"
+#include "trials/finding.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -8,7 +8,7 @@
 #include "errors/check.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 struct KindRow {
@@ -93,4 +93,4 @@ std::string before_and_after(double as_given_m, double if_changed_m) {
                      distance_text(if_changed_m));
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -1,4 +1,4 @@
-#include "data_check/explanations.hpp"
+#include "trials/explanations.hpp"
 
 #include <fmt/format.h>
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 constexpr std::size_t kRefined = 6;         ///< explanations whose links are fitted too
@@ -270,4 +270,4 @@ std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialF
   return BestExplanation{std::move(best.explanations), std::move(best.fit), std::move(equals)};
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

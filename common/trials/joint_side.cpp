@@ -1,4 +1,4 @@
-#include "data_check/joint_side.hpp"
+#include "trials/joint_side.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,7 +10,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/forward.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 JointSide::JointSide(const Trial& trial, const TrialFit& fit, const Eigen::Vector3d& gravity)
     : fit_(fit), down_(gravity.norm() > 0.0 ? gravity.normalized() : Eigen::Vector3d::UnitZ()) {
@@ -52,4 +52,4 @@ Eigen::MatrixXd JointSide::columns(const TrialRow& row) const {
   return fit_.sensor_from_base[static_cast<std::size_t>(row.station)].linear() * columns;
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -6,15 +6,15 @@
 #include <utility>
 #include <vector>
 
-#include "data_check/explanations.hpp"
-#include "data_check/point_pairs.hpp"
-#include "data_check/projected_columns.hpp"
-#include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "kinematics/chain.hpp"
 #include "random/distributions.hpp"
+#include "trials/explanations.hpp"
+#include "trials/point_pairs.hpp"
+#include "trials/projected_columns.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 constexpr std::size_t kFewestAside = 5;  ///< rows on either side of a jump
@@ -147,4 +147,4 @@ std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit) 
   return jump;
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "fitting/base_search.hpp"
 #include "kinematics/forward.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 constexpr int kPlacingTurns = 60;  ///< orientations of the base that a search starts from
@@ -47,4 +47,4 @@ TrialFit search_base_and_tools(const Trial& trial, const TrialFit& placed) {
   return best;
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -8,14 +8,14 @@
 #include <utility>
 #include <vector>
 
-#include "data_check/explanations.hpp"
-#include "data_check/point_pairs.hpp"
-#include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"
+#include "trials/explanations.hpp"
+#include "trials/point_pairs.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 constexpr double kFarDeviationsOff = 6.0;  ///< deviations at a set's median that ask for a reason; 1.5 are expected
@@ -131,4 +131,4 @@ std::optional<OtherSet> find_other_frame(const std::vector<Eigen::Vector3d>& pre
   return other;
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -1,4 +1,4 @@
-#include "data_check/projected_columns.hpp"
+#include "trials/projected_columns.hpp"
 
 #include "kinematics/chain.hpp"
 
@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 ProjectedColumns::ProjectedColumns(const Trial& trial, const TrialFit& fit) : linear_(linearized(trial, fit)) {
   constexpr double kFullWeight = 3.0;  // deviations up to which rows count in full
@@ -54,4 +54,4 @@ Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint)
   return column;
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -10,13 +10,13 @@
 #include <utility>
 #include <vector>
 
-#include "data_check/explanations.hpp"
-#include "data_check/point_pairs.hpp"
-#include "data_check/trial_fit.hpp"
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"
+#include "trials/explanations.hpp"
+#include "trials/point_pairs.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 constexpr std::size_t kFewestBehind = 5;  ///< rows on either side of a move: fewer could be outliers
@@ -196,4 +196,4 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
   return moves;
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

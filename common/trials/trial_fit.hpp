@@ -8,7 +8,7 @@
 
 #include "kinematics/chain.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 /// One measured point of a trial.
 struct TrialRow {
@@ -94,4 +94,4 @@ Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row);
 Eigen::Isometry3d weighted_registration(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,
                                         const Eigen::VectorXd& weights);
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -11,11 +11,11 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "data_check/finding.hpp"
-#include "data_check/trial_fit.hpp"
 #include "kinematics/chain.hpp"
+#include "trials/finding.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 /// One way to read the data otherwise than they are given.
 struct Explanation {
@@ -114,4 +114,4 @@ std::optional<OtherSet> find_other_set(const TrialFit& fit, std::vector<TrialRow
 std::optional<OtherSet> find_other_frame(const std::vector<Eigen::Vector3d>& predicted,
                                          const std::vector<Eigen::Vector3d>& measured);
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -13,15 +13,15 @@
 #include <vector>
 
 #include "data/spread_poses.hpp"
-#include "data_check/explanations.hpp"
-#include "data_check/point_pairs.hpp"
-#include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
 #include "fitting/base_search.hpp"
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"
+#include "trials/explanations.hpp"
+#include "trials/point_pairs.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 namespace {
 
 constexpr int kMostShift = 30;
@@ -222,4 +222,4 @@ std::optional<RowReordering> find_shuffled_rows(const Trial& whole, double near_
   return RowReordering{"the measured points are this arm's, but in another order: no shift of the rows fits", least};
 }
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 inline constexpr double kLeastFall = 0.4;  ///< ratio of median errors that is far better
 inline constexpr double kSmallestShift_m = 1e-4;
@@ -22,4 +22,4 @@ struct PointPairs {
 /// The motion that brings the arm's points [begin, end) to the measured ones, large errors counting less (L1).
 Eigen::Isometry3d registration(const PointPairs& pairs, std::size_t begin, std::size_t end);
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -4,10 +4,10 @@
 
 #include <Eigen/Core>
 
-#include "data_check/trial_fit.hpp"
 #include "decompositions/decompositions.hpp"
+#include "trials/trial_fit.hpp"
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 /// Columns have three coordinates for each row of the trial, m. Rows that are far off a fit with links count less.
 class ProjectedColumns {
@@ -33,4 +33,4 @@ class ProjectedColumns {
 /// How points move with one joint, three coordinates a row, m per rad or m.
 Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint);
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace demecal::inline data_check {
+namespace demecal::inline trials {
 
 /// The mistakes that the check knows. Reports write their names as they stand here.
 enum class FindingKind {
@@ -81,4 +81,4 @@ std::string distance_text(double metres_value);
 /// "(median error 412 mm as given, 0.21 mm if changed)"
 std::string before_and_after(double as_given_m, double if_changed_m);
 
-}  // namespace demecal::inline data_check
+}  // namespace demecal::inline trials

@@ -1,5 +1,5 @@
 // The quick fit finds base, tool and links of a simulated arm, and a few wrong rows do not move it.
-#include "data_check/trial_fit.hpp"
+#include "trials/trial_fit.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
