@@ -10,9 +10,13 @@ namespace demecal::inline data {
 
 double decimal_step(const std::vector<double>& values, double unit) {
   for (int decimals = 0; decimals <= 5; ++decimals) {
-    const double step = unit * std::pow(10.0, -decimals);
-    const auto is_multiple = [step](double value) { return std::abs(value / step - std::round(value / step)) < 1e-3; };
-    if (std::ranges::all_of(values, is_multiple)) return step;
+    for (const double times : {5.0, 2.5, 2.0, 1.0}) {
+      const double step = times * unit * std::pow(10.0, -decimals);
+      const auto is_multiple = [step](double value) {
+        return std::abs(value / step - std::round(value / step)) < 1e-3;
+      };
+      if (std::ranges::all_of(values, is_multiple)) return step;
+    }
   }
   return 0.0;
 }

@@ -8,7 +8,8 @@
 
 namespace demecal::inline data {
 
-/// The coarsest decimal place of a unit that all values are written to; 0 where they are written finer than 1e-5 units.
+/// The coarsest step that all values are written to: 5, 2.5, 2 or 1 times a decimal place of a unit, at most 5 units; 0
+/// where they are written finer than 1e-5 units.
 double decimal_step(const std::vector<double>& values, double unit);
 
 /// The last places of joints: of those that turn, rad (written in degrees or radians), of those that slide, m (in mm).

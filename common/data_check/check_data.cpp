@@ -61,8 +61,10 @@ class DataChecker {
     for (Finding& finding : find_other_base(data_, fit_)) add(std::move(finding));
     for (Finding& finding : find_other_tools(trial_, target_of_, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
-    if (!check_.has(FindingKind::computed_positions))
+    if (!check_.has(FindingKind::computed_positions)) {
+      for (Finding& finding : find_coarse_values(data_, trial_, fit_)) add(std::move(finding));
       for (Finding& finding : find_recording_errors(data_, trial_, fit_)) add(std::move(finding));
+    }
     check_rows();
     return std::move(check_);
   }

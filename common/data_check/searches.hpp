@@ -86,8 +86,18 @@ std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<Tr
 /// Joints that move by less than 2 degrees (5 mm) over the calibration poses, and measured points on a line or plane.
 std::vector<Finding> find_lacking_spread(const DataSet& data);
 
-/// What recording did to calibration rows, in the order of measuring, that `fit` shows: values rounded
-/// coarsely and, where links are fitted, joints read before the arm stood, points that wander where no times are given.
+/// Values rounded coarsely: positions, and joints whose errors do not follow position or side of a joint.
+std::vector<Finding> find_coarse_values(const DataSet& data, const Trial& trial, const TrialFit& fit);
+
+/// Of each row the way that the joints came from the stop before (`direction` -1), or have from the one behind (1), in
+/// the order of measuring; none of the row at that end.
+std::vector<std::optional<JointVector>> ways_of(const DataSet& data, const Trial& trial, int direction);
+
+/// The sign of a joint's way; 0 where it did not move or there is none.
+double side_of(const std::optional<JointVector>& way, int joint);
+
+/// What recording did to calibration rows, that `fit` shows where it has links: joints or points taken while the arm
+/// moved, points that wander where no times are given.
 std::vector<Finding> find_recording_errors(const DataSet& data, const Trial& trial, const TrialFit& fit);
 
 /// Of data without positions: joint angles said to be in degrees that are all as small as radians are.

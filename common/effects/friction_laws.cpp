@@ -1,4 +1,5 @@
 // What follows from the side that a joint came from: backlash and hysteresis.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -51,7 +52,7 @@ class BacklashLaw final : public EffectLaw {
   std::vector<std::string> forms() const override { return {"approach", "seated", "coupled"}; }
   Circumstance prerequisite() const override { return Circumstance::approach; }
   std::string_view reversal(const Effect& effect) const override {
-    return !seated(effect) && effect.value(0) < 0.0 ? kStopsBeyond : std::string_view();
+    return !seated(effect) && !coupled(effect) && effect.value(0) < 0.0 ? kStopsBeyond : std::string_view();
   }
   std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& /*evidence*/) const override {
     if (seated(effect) || coupled(effect)) return std::nullopt;
@@ -138,7 +139,8 @@ class HysteresisLaw final : public EffectLaw {
     append_joint_motion(robot, effect.joint, 1, -side * std::abs(state.torque(robot.chain, effect.joint)), motions);
   }
   std::string_view reversal(const Effect& effect) const override {
-    return effect.value(0) < 0.0 ? kStopsBeyond : std::string_view();
+    const auto [least, most] = std::minmax({effect.value(0), effect.value(1)});
+    return least < 0.0 && most <= 0.0 ? kStopsBeyond : std::string_view();
   }
   std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override {
     std::vector<Effect> effects;

@@ -68,11 +68,12 @@ CommandModel to_command_model(const CalibratedModel& model, const std::optional<
   CommandModel commands = with_posterior(command_model(model.nominal, robot, stated_bounds(model), other_tool_m), robot,
                                          model.posterior, model.measured, registration);
   commands.interval = model.interval;
-  if (!model.approach_recorded && !model.robot.effects.empty())
+  const bool corrected = !std::ranges::all_of(commands.robot.corrections, &JointCorrection::is_neutral);
+  if (!model.approach_recorded && (corrected || !commands.robot.effects.empty()))
     commands.notes.emplace_back(
-        "the model was measured without the sides that joints came from (approach columns): lost motion, if the arm "
-        "has "
-        "any, stands in it as gears or elasticity, and is corrected wrongly where a joint comes from the other side");
+        "the model was measured without the sides that joints came from (no approach columns, or one side only): lost "
+        "motion, if the arm has any, stands in it as gears, elasticity or joint corrections, and is corrected wrongly "
+        "where a joint comes from the other side");
   return commands;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 #include "decompositions/decompositions.hpp"
 #include "trials/trial_fit.hpp"
@@ -32,5 +33,20 @@ class ProjectedColumns {
 
 /// How points move with one joint, three coordinates a row, m per rad or m.
 Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint);
+
+/// Those of all joints, each row's times `factor` of the row and joint.
+template <typename Factor>
+Eigen::MatrixXd joint_columns(const Trial& trial, const TrialFit& fit, const Factor& factor) {
+  Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(trial.rows.size()), trial.chain.size());
+  for (int joint = 0; joint < trial.chain.size(); ++joint) {
+    columns.col(joint) = joint_column(trial, fit, joint);
+    for (Eigen::Index i = 0; i < columns.rows(); ++i)
+      columns(i, joint) *= factor(static_cast<std::size_t>(i / 3), joint);
+  }
+  return columns;
+}
+
+/// Nats that something systematic must gain, for each row of a pose.
+inline constexpr double kNotableGain = 20.0;
 
 }  // namespace demecal::inline trials

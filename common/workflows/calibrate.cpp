@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
@@ -22,6 +21,7 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/closed_calibration.hpp"
 #include "data/data_set.hpp"
+#include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
 #include "distal/learning.hpp"
 #include "distal/steps.hpp"
@@ -215,24 +215,23 @@ CorrectedRobot as_files_have_it(CorrectedRobot robot) {
 }  // namespace
 
 CalibratedModel make_model(const DataSet& data, const Job& job, const Calibration& calibration) {
-  return {
-      .job = job.name,
-      .nominal = data.robot,
-      .method = job.method,
-      .declared = job.declared,
-      .robot = as_files_have_it(calibration.robot),
-      .estimates = calibration.estimates,
-      .joints = calibration.joints,
-      .posterior = posterior_of(data, job.declared, calibration),
-      .interval = interval_of(data, job.declared, calibration),
-      .measured = measured_ranges(data, calibration),
-      .certificate = job.certificate,
-      .stations = as_files_have_it(stations_as_found(calibration.robot, data)),
-      .data_name = data.name,
-      .data_sha256 = data.sha256,
-      .approach_recorded = std::ranges::any_of(data.poses, [](const auto& pose) { return pose.approach.has_value(); }),
-      .seed = job.seed,
-      .version = DEMECAL_VERSION};
+  return {.job = job.name,
+          .nominal = data.robot,
+          .method = job.method,
+          .declared = job.declared,
+          .robot = as_files_have_it(calibration.robot),
+          .estimates = calibration.estimates,
+          .joints = calibration.joints,
+          .posterior = posterior_of(data, job.declared, calibration),
+          .interval = interval_of(data, job.declared, calibration),
+          .measured = measured_ranges(data, calibration),
+          .certificate = job.certificate,
+          .stations = as_files_have_it(stations_as_found(calibration.robot, data)),
+          .data_name = data.name,
+          .data_sha256 = data.sha256,
+          .approach_recorded = evidence_of(data, poses_of(data, PoseSet::calibration)).approach,
+          .seed = job.seed,
+          .version = DEMECAL_VERSION};
 }
 
 CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerPool& make_pool,

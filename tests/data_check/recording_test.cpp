@@ -1,6 +1,7 @@
 // What recording does to values is named: coarse digits, joints read before the arm stood, drift without times.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -80,6 +81,77 @@ TEST(Recording, JointsThatWereReadBeforeTheArmStoodAreNamed) {
       for (Eigen::Index joint = 0; joint < right.poses[i].joints.size(); ++joint)
         lost.poses[i].joints[joint] += right.poses[i].joints[joint] > right.poses[i - 1].joints[joint] ? 5e-4 : -5e-4;
     EXPECT_FALSE(check_data(lost).has(FindingKind::early_joints)) << right.robot.name;
+  }
+}
+
+TEST(Recording, WhatWasTakenWhileTheArmMovedIsNamed) {
+  for (const DataSet& right : long_measurements(9)) {
+    DataSet points = right, left = right;
+    for (std::size_t i = 1; i + 1 < right.poses.size(); ++i) {
+      points.poses[i].joints += 0.004 * (right.poses[i].joints - right.poses[i - 1].joints);
+      left.poses[i].joints += 0.004 * (right.poses[i + 1].joints - right.poses[i].joints);
+    }
+    const auto told = [](const DataSet& data) {
+      const auto all = sentences(check_data(data), FindingKind::early_joints);
+      return all.empty() ? std::string() : all.front();
+    };
+    EXPECT_TRUE(told(points).starts_with("Points were measured before the arm stood"))
+        << right.robot.name << told(points);
+    EXPECT_TRUE(told(left).starts_with("Joints were read after the arm had left")) << right.robot.name << told(left);
+    // Rows in another order, with times.
+    for (std::size_t i = 0; i < points.poses.size(); ++i) points.poses[i].time_s = 5.0 * static_cast<double>(i);
+    std::ranges::reverse(points.poses);
+    EXPECT_TRUE(told(points).starts_with("Points were measured before the arm stood"))
+        << right.robot.name << told(points);
+  }
+}
+
+TEST(Recording, StepsOfHalvesAndFifthsAreToldAndRoundPlacesOfOneJointAreNot) {
+  for (const DataSet& right : long_measurements(10)) {
+    for (const double step_deg : {0.5, 0.2}) {
+      DataSet coarse = right;
+      RandomStream random({2});
+      for (MeasuredPose& pose : coarse.poses) {
+        pose.joints[0] = rounded_to(pose.joints[0], radians(30.0));
+        pose.position_m = forward(coarse.robot.chain, pose.joints) * nominal_tool(coarse, pose);
+        for (double& coordinate : *pose.position_m) coordinate += 5e-5 * random.normal();
+        for (double& joint : pose.joints) joint = rounded_to(joint, radians(step_deg));
+      }
+      const auto told = sentences(check_data(coarse), FindingKind::coarse_values);
+      ASSERT_EQ(told.size(), 1U) << right.robot.name << " " << step_deg;
+      EXPECT_TRUE(
+          told.front().starts_with(step_deg == 0.5 ? "Joints are written to 0.5 deg" : "Joints are written to 0.2 deg"))
+          << told.front();
+    }
+  }
+}
+
+TEST(Recording, ErrorsOfGearsAreNotTakenForRounding) {
+  for (const DataSet& right : long_measurements(11)) {
+    DataSet sent = right;
+    RandomStream random({3});
+    for (MeasuredPose& pose : sent.poses) {
+      for (double& joint : pose.joints) joint = rounded_to(joint, radians(0.1));
+      JointVector real = pose.joints;
+      real[1] += 8e-4 * std::sin(2.0 * real[1] + 0.4);
+      real[2] += 6e-4 * std::cos(2.0 * real[2] - 0.3);
+      pose.position_m = forward(sent.robot.chain, real) * nominal_tool(sent, pose);
+      for (double& coordinate : *pose.position_m) coordinate += 5e-5 * random.normal();
+    }
+    EXPECT_FALSE(check_data(sent).has(FindingKind::coarse_values)) << right.robot.name;
+  }
+}
+
+TEST(Recording, SidesMeasuredOneAfterTheOtherAreNoDrift) {
+  for (const DataSet& right : long_measurements(12)) {
+    DataSet blocks = right;
+    for (std::size_t i = 0; i < blocks.poses.size(); ++i) {
+      const double side = i < blocks.poses.size() / 2 ? 1.0 : -1.0;
+      MeasuredPose& pose = blocks.poses[i];
+      pose.approach = ApproachSigns::Constant(pose.joints.size(), side);
+      pose.joints += JointVector::Constant(pose.joints.size(), 3e-4 * side);
+    }
+    EXPECT_FALSE(check_data(blocks).has(FindingKind::drift_without_times)) << right.robot.name;
   }
 }
 

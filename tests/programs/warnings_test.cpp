@@ -83,21 +83,29 @@ TEST(Concerns, SayWhatEffectsDependOnAndNobodyStates) {
 }
 
 TEST(Concerns, SayWhichEffectsAreNotToBeBelieved) {
-  for (const double width : {4e-4, -4e-4}) {
+  const auto are_told = [](const Effect& effect) {
     CommandModel model = wave_model(2e-3);
-    model.robot.effects = {
-        {.kind = "backlash", .joint = 1, .settings = {}, .form = "approach", .formula = {}, .values = {width}}};
+    model.robot.effects = {effect};
     const CorrectedProgram corrected = corrected_joints(model, joints_with(0.5, 0.2));
-    const auto sentence = [](const Remark& warning) { return warning.sentence; };
-    std::vector<std::string> all;
-    std::ranges::transform(corrected.warnings, std::back_inserter(all), sentence);
-    const auto refusal = HasSubstr("backlash of joint 2: The joint stops beyond where it is sent");
-    if (width < 0.0) {
-      EXPECT_THAT(all, ::testing::Contains(refusal));
-    } else {
-      EXPECT_THAT(all, ::testing::Not(::testing::Contains(refusal)));
-    }
-  }
+    return std::ranges::any_of(corrected.warnings, [](const Remark& warning) {
+      return warning.sentence.find("of joint 2: The joint stops beyond where it is sent") != std::string::npos;
+    });
+  };
+  const auto backlash = [](double width, const std::string& form) {
+    Effect effect{.kind = "backlash", .joint = 1, .settings = {}, .form = form, .formula = {}, .values = {width}};
+    if (form == "coupled") effect.settings["from"] = 1.0;
+    return effect;
+  };
+  EXPECT_TRUE(are_told(backlash(-4e-4, "approach")));
+  EXPECT_FALSE(are_told(backlash(4e-4, "approach")));
+  for (const double width : {-4e-4, 4e-4}) EXPECT_FALSE(are_told(backlash(width, "coupled")));
+  const auto hysteresis = [](double friction, double per_nm) {
+    return Effect{
+        .kind = "hysteresis", .joint = 1, .settings = {}, .form = {}, .formula = {}, .values = {friction, per_nm}};
+  };
+  EXPECT_TRUE(are_told(hysteresis(-1e-5, 0.0)));
+  EXPECT_FALSE(are_told(hysteresis(-1e-6, 1e-6)));
+  EXPECT_FALSE(are_told(hysteresis(1e-5, 1e-6)));
 }
 
 TEST(Concerns, NameTheJointBeyondItsLimits) {
