@@ -56,7 +56,7 @@ bool is_bounded(const JointCorrection& correction, const JointTraining& training
   return stays_below(correction, correction_limit_rad(training));
 }
 
-std::vector<JointCorrection> admissible_corrections(const JointCandidates& candidates) {
+std::vector<JointCorrection> admissible_corrections(const JointCandidates& candidates, std::optional<std::size_t> set) {
   std::vector<JointCorrection> corrections;
   const double limit_rad = correction_limit_rad(candidates.training);
   const auto add = [&](const JointCorrection& correction) {
@@ -64,9 +64,8 @@ std::vector<JointCorrection> admissible_corrections(const JointCandidates& candi
   };
   for (const Individual& individual : candidates.front) add(correction_from(candidates.training, individual.tree));
   for (const Tree& tree : candidates.short_forms) add(correction_from(candidates.training, tree));
-  for (const JointCorrection& other : candidates.alternatives) {
-    if (!other.is_neutral()) add(other);
-  }
+  if (set && *set < candidates.alternatives.size() && !candidates.alternatives[*set].is_neutral())
+    add(candidates.alternatives[*set]);
   return corrections;
 }
 

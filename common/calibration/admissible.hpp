@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,9 +13,10 @@
 
 namespace demecal::inline calibration {
 
-/// A joint's candidates that may be considered, those evolved first, then their short forms, then those from elsewhere:
-/// bounded within the joint's limit (see is_bounded), and with at most four jumps over its range.
-std::vector<JointCorrection> admissible_corrections(const JointCandidates& candidates);
+/// A joint's candidates that may be considered, those evolved first, then their short forms, then that of a set of
+/// corrections from elsewhere: bounded within the joint's limit (see is_bounded), and with at most four jumps over its
+/// range.
+std::vector<JointCorrection> admissible_corrections(const JointCandidates& candidates, std::optional<std::size_t> set);
 
 /// What evolution ended with: of the bounded members of the front the fittest; neutral where there is none.
 JointCorrection fittest_correction(const JointCandidates& candidates);

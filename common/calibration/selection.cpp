@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "calibration/admissible.hpp"
@@ -145,12 +146,17 @@ CorrectedRobot with_alternatives(CorrectedRobot robot, std::span<const JointCand
   return robot;
 }
 
-std::vector<CorrectedRobot> starting_points(const CorrectedRobot& declared,
-                                            std::span<const JointCandidates> candidates) {
-  std::vector<CorrectedRobot> starts{declared, with_fittest(declared, candidates)};
+struct StartingPoint {
+  CorrectedRobot robot;
+  std::optional<std::size_t> set{};  ///< of corrections from elsewhere, where it is made of one
+};
+
+std::vector<StartingPoint> starting_points(const CorrectedRobot& declared,
+                                           std::span<const JointCandidates> candidates) {
+  std::vector<StartingPoint> starts{{declared}, {with_fittest(declared, candidates)}};
   std::size_t sets = 0;
   for (const JointCandidates& joint : candidates) sets = std::max(sets, joint.alternatives.size());
-  for (std::size_t set = 0; set < sets; ++set) starts.push_back(with_alternatives(declared, candidates, set));
+  for (std::size_t set = 0; set < sets; ++set) starts.push_back({with_alternatives(declared, candidates, set), set});
   return starts;
 }
 
@@ -230,12 +236,12 @@ Selection select_corrections(const DataSet& data, std::span<const std::size_t> f
     start.choices.push_back(
         {static_cast<int>(joint.training.joint), false, joint.front.size() + joint.alternatives.size(), 0.0, 0.0});
   }
-  std::vector<std::vector<JointCorrection>> admissible;
-  for (const JointCandidates& joint : candidates) admissible.push_back(admissible_corrections(joint));
   Selection best = start;
   double least = sum(evaluators.selecting.squared_errors(declared));
-  for (CorrectedRobot& from : starting_points(declared, candidates)) {
-    start.robot = std::move(from);
+  for (StartingPoint& from : starting_points(declared, candidates)) {
+    std::vector<std::vector<JointCorrection>> admissible;
+    for (const JointCandidates& joint : candidates) admissible.push_back(admissible_corrections(joint, from.set));
+    start.robot = std::move(from.robot);
     const Selection swept = sweep(evaluators, start, candidates, admissible);
     const double left = sum(evaluators.selecting.squared_errors(swept.robot));
     if (left < least) {

@@ -86,13 +86,13 @@ bool is_bounded(const JointCorrection& correction, const JointTraining& training
 
 /// Joint by joint, in sweeps until nothing changes: once from all joints neutral, once from all joints with what fits
 /// their own targets best (the targets of a pose belong together), and once from every set of corrections from
-/// elsewhere; whichever ends best. Of a joint's candidates, with the other joints as they stand, that is taken which,
-/// with the tool errors it leaves at the `selecting` poses, is described in the fewest nats (see
-/// description_length_nats); where joints learnt together (tables of squared errors) the shortest that is at most half
-/// a standard error worse than the best. It is kept only if it beats the neutral correction by more than two standard
-/// errors on these poses and on the `fitted` ones too, and the whole never does worse on the selection poses than no
-/// correction. A candidate that is not bounded is not considered. `selecting` holds validation poses; the calibration
-/// poses where there are none.
+/// elsewhere, which is then a candidate too; whichever ends best. Of a joint's candidates, with the other joints as
+/// they stand, that is taken which, with the tool errors it leaves at the `selecting` poses, is described in the fewest
+/// nats (see description_length_nats); where joints learnt together (tables of squared errors) the shortest that is at
+/// most half a standard error worse than the best. It is kept only if it beats the neutral correction by more than two
+/// standard errors on these poses and on the `fitted` ones too, and the whole never does worse on the selection poses
+/// than no correction. A candidate that is not bounded is not considered. `selecting` holds validation poses; the
+/// calibration poses where there are none.
 Selection select_corrections(const DataSet& data, std::span<const std::size_t> fitted,
                              std::span<const std::size_t> selecting, const CorrectedRobot& declared,
                              std::span<const JointCandidates> candidates);
