@@ -27,6 +27,7 @@ namespace {
 constexpr double kFullWeightOff = 3.0;  ///< deviations up to which rows count in full
 constexpr double kAxesGain = 20.0;      ///< log likelihood that wrong axes must gain, for each row of a pose
 constexpr double kClearGain = 8.0;      ///< that a further number must gain
+constexpr double kAxesFall = 0.9;       ///< of the median error, where axes are at fault
 constexpr double kLeastStretch = 3e-4;  ///< instruments' axes agree to a tenth of this
 constexpr double kMostStretch = 0.1;
 constexpr int kAxesRefits = 3;
@@ -235,7 +236,8 @@ std::optional<Finding> find_wrong_axes(const DataSet& data, CheckedRows& rows, T
   const Eigen::VectorXd sizes = gain.sizes(numbers);
   const std::string words = numbers_in_words(numbers, sizes);
   if (gain.by(numbers) < kAxesGain * fitted.rows_per_pose || words.empty()) return std::nullopt;
-  if (fitted.median_m > std::min(kImplausibleShare * rows.trial.reach_m(), fit.median_m)) return std::nullopt;
+  if (fitted.median_m > std::min(kImplausibleShare * rows.trial.reach_m(), kAxesFall * fit.median_m))
+    return std::nullopt;
   AxesStretch named = AxesStretch::Zero();
   for (std::size_t i = 0; i < numbers.size(); ++i) named[numbers[i]] = sizes[1 + static_cast<Eigen::Index>(i)];
   take_stretch_away(named, middle, rows.trial);
