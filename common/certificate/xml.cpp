@@ -1,6 +1,7 @@
 #include "certificate/xml.hpp"
 
 #include <libxml/tree.h>
+#include <libxml/xmlstring.h>
 #include <libxml/xmlwriter.h>
 #include <cstddef>
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "kinematics/chain.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "trials/finding.hpp"

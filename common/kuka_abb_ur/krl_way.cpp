@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "data/text.hpp"
 #include "kuka_abb_ur/krl_frames.hpp"

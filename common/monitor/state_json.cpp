@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "monitor/events.hpp"
+#include "protocol/findings.hpp"
 #include "report/json.hpp"
 
 namespace demecal::inline monitor {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "evolution/archipelago.hpp"
+#include "protocol/findings.hpp"
 #include "protocol/messages.hpp"
 #include "protocol/stages.hpp"
 

@@ -1,6 +1,7 @@
 #include "expression/tree.hpp"
 #include "primitives/primitive.hpp"
 #include "protocol/field_kinds.hpp"
+#include "protocol/finding_fields.hpp"
 #include "protocol/message_bytes.hpp"
 #include "protocol/messages.hpp"
 

@@ -4,8 +4,10 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <vector>
 
 #include "decompositions/decompositions.hpp"
+#include "kinematics/chain.hpp"
 #include "trials/trial_fit.hpp"
 
 namespace demecal::inline trials {

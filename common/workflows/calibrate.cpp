@@ -1,3 +1,4 @@
+#include "effects/effect.hpp"
 #include "workflows/workflows.hpp"
 
 #include <Eigen/Core>
