@@ -1,17 +1,22 @@
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
+#include <ranges>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data/spread_poses.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"
 #include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
@@ -78,7 +83,7 @@ class PredictionScores {
     }
     std::vector<std::size_t> distinct = groups;
     std::ranges::sort(distinct);
-    distinct.erase(std::ranges::unique(distinct).begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
     interval_.poses = distinct.size();
     interval_.quantile = conformal_quantile(scores, groups, kIntervalShare);
     if (!std::isfinite(interval_.quantile))
