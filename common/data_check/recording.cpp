@@ -18,7 +18,6 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "trials/finding.hpp"
-#include "trials/point_pairs.hpp"
 #include "trials/projected_columns.hpp"
 #include "trials/trial_fit.hpp"
 

@@ -47,12 +47,13 @@ bool as_rounded(double error, double rounded) {
 
 std::optional<Finding> coarse_positions(const Trial& trial) {
   constexpr std::string_view kAxes = "xyz";
+  constexpr double kOnePlace_m = 5e-5;
   std::string columns;
   double coarsest_m = 0.0;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
     std::vector<double> values;
     for (const TrialRow& row : trial.rows) values.push_back(row.point_m[axis]);
-    if (*std::ranges::max_element(values) - *std::ranges::min_element(values) < kRoundingShare) continue;
+    if (*std::ranges::max_element(values) - *std::ranges::min_element(values) < kOnePlace_m) continue;
     const double step_m = decimal_step(values, metres(100.0));
     if (kOfStep * step_m < kRoundingShare * trial.reach_m()) continue;
     columns += fmt::format("{}{} to {:g} mm", columns.empty() ? "" : ", ", kAxes[static_cast<std::size_t>(axis)],
@@ -111,11 +112,10 @@ std::optional<Finding> coarse_joint(const Trial& trial, const TrialFit& fit, int
       .kind = FindingKind::coarse_values,
       .joint = joint,
       .as_given_mm = millimetres(rounded_m),
-      .sentence = fmt::format(
-          "Joint {} is written to {} only. If that is what the controller showed and not what it was sent to, "
-          "points are off along its motion as that makes them: {:.2g} mm (rms). Note it as finely as the "
-          "other joints; such errors would be taken for the joint's.",
-          joint + 1, written.text, millimetres(rounded_m))};
+      .sentence = fmt::format("Joint {} is written to {} only. If that is what the controller showed and not what it "
+                              "was sent to, points are off along its motion as that makes them: {:.2g} mm (rms). Note "
+                              "it as finely as the other joints; such errors would be taken for the joint's.",
+                              joint + 1, written.text, millimetres(rounded_m))};
 }
 
 /// All joints written so coarsely that errors may be no more than that. Pendants that show 0.01 deg are usual.
@@ -139,9 +139,8 @@ std::optional<Finding> coarse_joints(const Trial& trial, const TrialFit& fit, co
       .kind = FindingKind::coarse_values,
       .as_given_mm = millimetres(rounded_m),
       .sentence = fmt::format(
-          "Joints are written to {} only. If they are what the controller showed and not what it was sent to, "
-          "that alone puts points {:.2g} mm off (rms), as much as base, tool and links leave. Note joints to "
-          "0.001 deg.",
+          "Joints are written to {} only. If they are what the controller showed and not what it was sent to, that "
+          "alone puts points {:.2g} mm off (rms), as much as base, tool and links leave. Note joints to 0.001 deg.",
           coarsest->text, millimetres(rounded_m))};
 }
 
@@ -189,17 +188,14 @@ std::optional<Finding> find_computed_positions(const Trial& trial, const TrialFi
   const double reach_m = trial.reach_m(), rounded_m = rounding_m(trial, placed);
   const bool by_rounding = rounded_m < kMostRoundingShare * reach_m && placed.median_m < kOverRounding * rounded_m;
   if (!by_rounding && placed.median_m > kComputedShare * reach_m) return std::nullopt;
-  return Finding{
-      .kind = FindingKind::computed_positions,
-      .as_given_mm = millimetres(placed.median_m),
-      .sentence = fmt::format(
-          "With base and tool alone the nominal arm reaches half of the points to within {:.2g} mm{}: these are "
-          "positions "
-          "that "
-          "the controller (or a simulation) computed from the joints, not measured ones. Measure the points with an "
-          "instrument: computed ones say nothing about the arm.",
-          std::max(millimetres(placed.median_m), 1e-4),
-          by_rounding ? ", the rounding of the file" : ", as no arm does")};
+  return Finding{.kind = FindingKind::computed_positions,
+                 .as_given_mm = millimetres(placed.median_m),
+                 .sentence = fmt::format(
+                     "With base and tool alone the nominal arm reaches half of the points to within {:.2g} mm{}: these "
+                     "are positions that the controller (or a simulation) computed from the joints, not measured ones. "
+                     "Measure the points with an instrument: computed ones say nothing about the arm.",
+                     std::max(millimetres(placed.median_m), 1e-4),
+                     by_rounding ? ", the rounding of the file" : ", as no arm does")};
 }
 
 std::vector<Finding> find_coarse_values(const DataSet& data, const Trial& trial, const TrialFit& fit) {
@@ -254,12 +250,12 @@ std::optional<Finding> find_computed_contacts(const DataSet& data, const Correct
   return Finding{
       .kind = FindingKind::computed_positions,
       .as_given_mm = millimetres(left_m),
-      .sentence = fmt::format(
-          "With its tool alone fitted the nominal arm holds half of the poses to within {:.2g} mm of what they "
-          "touch{}: "
-          "these are joint values that a plan (or a simulation) computed, not those of an arm that touched something. "
-          "Replace them by what the controller shows once the tool is seated: computed ones say nothing about the arm.",
-          std::max(millimetres(left_m), 1e-4), by_rounding ? ", the rounding of the file" : ", as no arm does")};
+      .sentence = fmt::format("With its tool alone fitted the nominal arm holds half of the poses to within {:.2g} mm "
+                              "of what they touch{}: these are joint values that a plan (or a simulation) computed, "
+                              "not those of an arm that touched something. Replace them by what the controller shows "
+                              "once the tool is seated: computed ones say nothing about the arm.",
+                              std::max(millimetres(left_m), 1e-4),
+                              by_rounding ? ", the rounding of the file" : ", as no arm does")};
 }
 
 }  // namespace demecal::inline data_check

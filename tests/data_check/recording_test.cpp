@@ -11,19 +11,11 @@
 #include "data_check/check_data.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
-#include "mistaken_case.hpp"
+#include "long_measurements.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
 namespace {
-
-/// Data sets of 150 poses of every arm, without times.
-std::vector<DataSet> long_measurements(std::uint64_t seed) {
-  std::vector<DataSet> all;
-  for (const Robot& arm : bench::mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots"))
-    all.push_back(bench::unmistaken_cases({arm}, 10, {.seed = seed}).back().data);
-  return all;
-}
 
 /// The findings of a kind, as sentences.
 std::vector<std::string> sentences(const DataCheck& check, FindingKind kind) {

@@ -8,18 +8,10 @@
 
 #include "data_check/check_data.hpp"
 #include "kinematics/units.hpp"
-#include "mistaken_case.hpp"
+#include "long_measurements.hpp"
 
 namespace demecal {
 namespace {
-
-/// Data sets of 150 poses of every arm, that of seven joints among them.
-std::vector<DataSet> long_measurements(std::uint64_t seed) {
-  std::vector<DataSet> all;
-  for (const Robot& arm : bench::mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots"))
-    all.push_back(bench::unmistaken_cases({arm}, 10, {.seed = seed}).back().data);
-  return all;
-}
 
 std::string told(const DataCheck& check) {
   std::string all;
