@@ -57,8 +57,8 @@ constexpr WayMistake kWayMistakes[] = {
 
 /// A share of every joint's way that joints or points are off by, all joints alike. It explains more than lost motion
 /// of each joint, a wrong gain of each, and the way on the other side of the stop.
-std::optional<Finding> early_joints(const DataSet& data, const Trial& trial, const TrialFit& fit,
-                                    const ProjectedColumns& projected) {
+std::optional<Finding> find_taken_in_motion(const DataSet& data, const Trial& trial, const TrialFit& fit,
+                                            const ProjectedColumns& projected) {
   constexpr double kFall = 0.85, kMostShare = 0.2;
   const auto before = ways_of(data, trial, -1), behind = ways_of(data, trial, 1);
   const auto way = [](const std::vector<std::optional<JointVector>>& ways) {
@@ -85,7 +85,7 @@ std::optional<Finding> early_joints(const DataSet& data, const Trial& trial, con
     return one.direction == (is_from ? -1 : 1) && one.adds == (share > 0.0);
   };
   const WayMistake& mistake = *std::ranges::find_if(kWayMistakes, is_it);
-  return Finding{.kind = FindingKind::early_joints,
+  return Finding{.kind = FindingKind::taken_in_motion,
                  .as_given_mm = millimetres(fit.median_m),
                  .if_changed_mm = millimetres(changed.median_m),
                  .sentence = fmt::format(fmt::runtime(mistake.what), 100.0 * std::abs(share),
@@ -198,7 +198,7 @@ std::vector<Finding> find_recording_errors(const DataSet& data, const Trial& tri
   std::vector<Finding> findings;
   if (trial.rows.size() < kFewest || !fit.has_links()) return findings;
   const ProjectedColumns projected(trial, fit);
-  std::optional<Finding> finding = early_joints(data, trial, fit, projected);
+  std::optional<Finding> finding = find_taken_in_motion(data, trial, fit, projected);
   if (!finding) finding = drift_without_times(data, trial, projected, fit);
   if (finding) findings.push_back(std::move(*finding));
   return findings;

@@ -32,7 +32,7 @@ constexpr std::array<KindRow, 34> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::joint_zero_changed, "joint_zero_changed", false},
                                           {FindingKind::computed_positions, "computed_positions", false},
                                           {FindingKind::coarse_values, "coarse_values", false},
-                                          {FindingKind::early_joints, "early_joints", false},
+                                          {FindingKind::taken_in_motion, "taken_in_motion", false},
                                           {FindingKind::drift_without_times, "drift_without_times", false},
                                           {FindingKind::wrong_axes, "wrong_axes", false},
                                           {FindingKind::set_in_other_frame, "set_in_other_frame", false},

@@ -25,7 +25,7 @@ enum class FindingKind {
   joint_zero_changed,
   computed_positions,
   coarse_values,
-  early_joints,
+  taken_in_motion,
   drift_without_times,
   wrong_axes,
   set_in_other_frame,

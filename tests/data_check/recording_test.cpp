@@ -61,18 +61,18 @@ TEST(Recording, JointsThatWereSentToWholeDegreesAreNotCalledRounded) {
 
 TEST(Recording, JointsThatWereReadBeforeTheArmStoodAreNamed) {
   for (const DataSet& right : long_measurements(7)) {
-    EXPECT_FALSE(check_data(right).has(FindingKind::early_joints)) << right.robot.name;
+    EXPECT_FALSE(check_data(right).has(FindingKind::taken_in_motion)) << right.robot.name;
     DataSet early = right;
     for (std::size_t i = 1; i < early.poses.size(); ++i)
       early.poses[i].joints -= 0.003 * (right.poses[i].joints - right.poses[i - 1].joints);
-    const auto told = sentences(check_data(early), FindingKind::early_joints);
+    const auto told = sentences(check_data(early), FindingKind::taken_in_motion);
     ASSERT_EQ(told.size(), 1U) << right.robot.name;
     EXPECT_NE(told.front().find("0.3 % of every joint's way"), std::string::npos) << told.front();
     DataSet lost = right;
     for (std::size_t i = 1; i < lost.poses.size(); ++i)
       for (Eigen::Index joint = 0; joint < right.poses[i].joints.size(); ++joint)
         lost.poses[i].joints[joint] += right.poses[i].joints[joint] > right.poses[i - 1].joints[joint] ? 5e-4 : -5e-4;
-    EXPECT_FALSE(check_data(lost).has(FindingKind::early_joints)) << right.robot.name;
+    EXPECT_FALSE(check_data(lost).has(FindingKind::taken_in_motion)) << right.robot.name;
   }
 }
 
@@ -84,7 +84,7 @@ TEST(Recording, WhatWasTakenWhileTheArmMovedIsNamed) {
       left.poses[i].joints += 0.004 * (right.poses[i + 1].joints - right.poses[i].joints);
     }
     const auto told = [](const DataSet& data) {
-      const auto all = sentences(check_data(data), FindingKind::early_joints);
+      const auto all = sentences(check_data(data), FindingKind::taken_in_motion);
       return all.empty() ? std::string() : all.front();
     };
     EXPECT_TRUE(told(points).starts_with("Points were measured before the arm stood"))
