@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "explanations/explanation_search.hpp"
@@ -53,6 +55,21 @@ TEST(Pieces, WithinPiecesAreDoneInTheThreadOfTheOuterOne) {
     sums[i] = static_cast<int>(std::accumulate(inner.begin(), inner.end(), std::size_t{0}));
   });
   EXPECT_EQ(sums, std::vector<int>(20, 435));
+}
+
+TEST(Pieces, WithinAPieceWaitForNoOtherPiece) {
+  PieceThreads threads(2);
+  const RunPiecesBy by(threads);
+  std::atomic<int> arrived{0};
+  std::atomic<bool> met{true};
+  in_pieces(2, [&](std::size_t) {
+    in_pieces(3, [](std::size_t) {});
+    ++arrived;
+    const auto latest = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (arrived < 2 && std::chrono::steady_clock::now() < latest) std::this_thread::yield();
+    if (arrived < 2) met = false;
+  });
+  EXPECT_TRUE(met);
 }
 
 TEST(Pieces, ThrowOnWhatTheFirstByNumberThrew) {
