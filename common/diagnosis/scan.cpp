@@ -15,7 +15,7 @@
 #include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
 #include "primitives/primitive.hpp"
-#include "residuals/noise.hpp"
+#include "residuals/null_noise.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {

@@ -4,11 +4,26 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "decompositions/decompositions.hpp"
 #include "primitives/elementary.hpp"
 
 namespace demecal::inline effect_sets {
+
+FittedSet::FittedSet(const ExplanationProblem& problem, std::vector<std::size_t> effects)
+    : problem_(&problem), effects_(std::move(effects)), squares_(problem.squares) {
+  for (const std::size_t effect : effects_) {
+    price_ += price_nats(effect);
+    const ColumnSpan& span = problem.spans[effect];
+    for (Eigen::Index k = 0; k < span.count; ++k) columns_.push_back(span.first + k);
+  }
+  if (columns_.empty()) return;
+  inverse_ = Cholesky(problem.gram(columns_, columns_)).inverse();
+  const Eigen::VectorXd moment = problem.moment(columns_);
+  coefficients_ = inverse_ * moment;
+  squares_ -= moment.dot(coefficients_);
+}
 
 bool FittedSet::holds(std::size_t effect) const {
   return std::ranges::count(effects_, effect) > 0;

@@ -42,9 +42,8 @@ class FittedSet {
  public:
   /// Of no effect. Keeps the problem by reference.
   explicit FittedSet(const ExplanationProblem& problem) : problem_(&problem), squares_(problem.squares) {}
-  FittedSet(const ExplanationProblem& problem, const std::vector<std::size_t>& effects) : FittedSet(problem) {
-    for (const std::size_t effect : effects) add(effect);
-  }
+  /// Of these, at once: many times as fast as one added after another where there are many.
+  FittedSet(const ExplanationProblem& problem, std::vector<std::size_t> effects);
 
   /// In the order in which they came.
   const std::vector<std::size_t>& effects() const { return effects_; }

@@ -109,13 +109,13 @@ FittedSet SetIsland::mixed(const FittedSet& one, const FittedSet& other) {
   std::set<std::size_t> causes;
   for (const FittedSet* set : {&one, &other})
     for (const std::size_t cause : set->causes()) causes.insert(cause);
-  FittedSet both(problem_);
+  std::vector<std::size_t> both;
   for (const std::size_t cause : causes) {
     const FittedSet& from = random_.chance(0.5) ? one : other;
-    for (const std::size_t effect : from.effects())
-      if (problem_.cause[effect] == cause) both.add(effect);
+    std::ranges::copy_if(from.effects(), std::back_inserter(both),
+                         [&](std::size_t effect) { return problem_.cause[effect] == cause; });
   }
-  return both;
+  return {problem_, std::move(both)};
 }
 
 void SetIsland::leave_out_what_earns_nothing(FittedSet& set) const {

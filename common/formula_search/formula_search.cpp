@@ -20,7 +20,7 @@
 #include "kinematics/chain.hpp"
 #include "primitives/primitive.hpp"
 #include "random/distributions.hpp"
-#include "residuals/noise.hpp"
+#include "residuals/null_noise.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 

@@ -18,7 +18,7 @@
 #include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
 #include "random/distributions.hpp"
-#include "residuals/noise.hpp"
+#include "residuals/null_noise.hpp"
 
 namespace demecal::inline residuals {
 namespace {
@@ -191,12 +191,13 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   const std::vector<Eigen::Index> rows = row_indices(field, poses);
   const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual()(rows), chain), all);
   const NullNoise noise(field, model);
+  const NullResiduals of_noise(noise, poses);
   Eigen::MatrixXd null(seen.size(), draws);
   const std::uint64_t name = random.name();
   in_pieces(static_cast<std::size_t>((draws + kDrawsAtATime - 1) / kDrawsAtATime), [&](std::size_t piece) {
     const Eigen::Index done = static_cast<Eigen::Index>(piece) * kDrawsAtATime;
     RandomStream own{name, piece};
-    const Eigen::MatrixXd drawn = noise.residuals(std::min<Eigen::Index>(kDrawsAtATime, draws - done), rows, own);
+    const Eigen::MatrixXd drawn = of_noise.draw(std::min<Eigen::Index>(kDrawsAtATime, draws - done), own);
     for (Eigen::Index i = 0; i < drawn.cols(); ++i)
       null.col(done + i) = agreements(joint_errors(field, poses, drawn.col(i), chain), all);
   });

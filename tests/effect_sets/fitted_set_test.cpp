@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "deceptive.hpp"
 
@@ -31,6 +34,18 @@ TEST(FittedSet, IsLeastSquaresHoweverItCameAbout) {
     for (std::size_t i = 0; i < held.size(); ++i)
       EXPECT_NEAR(set.moments_left()[static_cast<Eigen::Index>(held[i])], 0.0, 1e-6);
   }
+}
+
+TEST(FittedSet, OfEffectsAtOnceIsThatOfOneAfterAnother) {
+  const ExplanationProblem problem = deceptive(7);
+  const std::vector<std::size_t> effects{9, 2, 14, 5, 11};
+  FittedSet grown(problem);
+  for (const std::size_t effect : effects) grown.add(effect);
+  const FittedSet set(problem, effects);
+  EXPECT_EQ(set.effects(), effects);
+  EXPECT_NEAR(set.description_nats(), grown.description_nats(), 1e-9 * std::abs(grown.description_nats()));
+  EXPECT_LT((set.coefficients() - grown.coefficients()).norm(), 1e-9 * grown.coefficients().norm());
+  EXPECT_LT((set.moments_left() - grown.moments_left()).norm(), 1e-9 * problem.moment.norm());
 }
 
 TEST(FittedSet, GainsOfLeavingOutAreDifferencesOfDescriptions) {

@@ -1,9 +1,13 @@
 // Tests that name no effect: dependence of the residual on circumstances, and scatter against repeats.
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "measured_arm.hpp"
+#include "residuals/null_noise.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal {
@@ -81,6 +85,29 @@ TEST(Structure, IsFoundInNoiseAsOftenAsItsPValuesSay) {
   }
   EXPECT_LE(rare, 12);
   EXPECT_NEAR(sum / kDraws, 0.5, 0.15);
+}
+
+TEST(NullResiduals, OfSomePosesScatterAsIfAllHadBeenDrawn) {
+  RandomStream stream{86, 8};
+  TestedArm tested = tested_arm(stream, 620);
+  renew_noise(tested.field, stream);
+  const Projection model = projection_of(tested.field);
+  const NullNoise noise(tested.field, model);
+  std::vector<std::size_t> poses;
+  std::vector<Eigen::Index> rows;
+  for (std::size_t pose = 0; pose < 100; ++pose) {
+    poses.push_back(pose);
+    for (Eigen::Index row = 0; row < 3; ++row) rows.push_back(tested.field.first_row[pose] + row);
+  }
+  constexpr Eigen::Index kDraws = 2000;
+  const Eigen::MatrixXd some = NullResiduals(noise, poses).draw(kDraws, stream);
+  const Eigen::MatrixXd all = noise.residuals(kDraws, rows, stream);
+  EXPECT_NEAR(some.squaredNorm() / all.squaredNorm(), 1.0, 0.01);
+  // Along what the model follows, where the other poses' say shows most.
+  const Eigen::MatrixXd basis = model.basis()(rows, Eigen::all);
+  const Eigen::VectorXd followed = (basis.transpose() * some).rowwise().squaredNorm(),
+                        wanted = (basis.transpose() * all).rowwise().squaredNorm();
+  for (Eigen::Index i = 0; i < wanted.size(); ++i) EXPECT_NEAR(followed[i] / wanted[i], 1.0, 0.2) << i;
 }
 
 TEST(Structure, IsAFunctionOfItsSeed) {

@@ -1,5 +1,6 @@
 #include "evolution_case.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -21,6 +22,14 @@ namespace {
 constexpr std::uint64_t kFirstSeed = 20261200;
 constexpr std::uint64_t kTruth = 22;  ///< of an arm's random streams
 
+/// "backlash (from 3), joint 5"
+std::string name_of(const Effect& effect) {
+  std::string name = effect.kind;
+  for (const auto& [setting, value] : effect.settings) name += fmt::format(" ({} {})", setting, value);
+  if (!effect.form.empty()) name += " (" + effect.form + ")";
+  return fmt::format("{}, joint {}", name, effect.joint + 1);
+}
+
 DiagnosisFigures diagnosed(const DataSet& data, const DeclaredModel& declared, std::uint64_t seed, bool evolve,
                            const std::vector<Effect>& truths) {
   Job job;
@@ -41,16 +50,16 @@ DiagnosisFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
   figures.accept_mm = error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
   if (truths.empty()) return figures;
   const std::vector<ArmState> states = states_of(data, PoseSet::calibration);
-  const auto is_found = [&](const Effect& truth) {
-    return std::ranges::any_of(robot.effects,
-                               [&](const Effect& found) { return is_truth(found, truth, data.robot, states); });
+  const auto among = [&](const std::vector<Effect>& found, const Effect& truth) {
+    return std::ranges::any_of(found, [&](const Effect& one) { return is_truth(one, truth, data.robot, states); });
   };
-  const auto is_false = [&](const Effect& found) {
-    return std::ranges::none_of(truths,
-                                [&](const Effect& truth) { return is_truth(found, truth, data.robot, states); });
-  };
-  figures.true_causes_named = static_cast<std::size_t>(std::ranges::count_if(truths, is_found));
-  figures.false_effects = static_cast<std::size_t>(std::ranges::count_if(robot.effects, is_false));
+  for (const Effect& truth : truths)
+    if (!among(robot.effects, truth)) figures.missed.push_back(name_of(truth));
+  for (const Effect& found : robot.effects) {
+    const auto is_it = [&](const Effect& truth) { return is_truth(found, truth, data.robot, states); };
+    if (std::ranges::none_of(truths, is_it)) figures.false_effects.push_back(name_of(found));
+  }
+  figures.true_causes_named = truths.size() - figures.missed.size();
   return figures;
 }
 

@@ -19,7 +19,8 @@ struct DiagnosisFigures {
   std::size_t causes = 0, effects = 0;          ///< of the chosen model
   double validation_mm = 0.0, accept_mm = 0.0;  ///< rms; validation while it was unseen
   std::size_t true_causes_named = 0;            ///< of a simulated arm
-  std::size_t false_effects = 0;
+  std::vector<std::string> missed;              ///< true causes that are not named
+  std::vector<std::string> false_effects;
   double seconds = 0.0;
 
   /// The least error on the validation poses with at most so many causes.

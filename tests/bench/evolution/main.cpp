@@ -36,6 +36,7 @@ struct Options {
   int seeds = 1;
   std::string data = std::string(DEMECAL_SOURCE_DIR) + "/../shared/data";
   std::vector<std::string> only;
+  std::vector<int> numbers;  ///< of simulated arms; none: all
   int threads = 2;
   bool json = false;
 };
@@ -52,6 +53,7 @@ nlohmann::json json_of(const DiagnosisFigures& figures, bool simulated) {
                       {"seconds", figures.seconds},     {"front", front}};
   if (simulated) {
     json["true_causes_named"] = figures.true_causes_named;
+    json["missed"] = figures.missed;
     json["false_effects"] = figures.false_effects;
   }
   return json;
@@ -64,11 +66,13 @@ class Bench {
     for (int seed = 1; seed <= options.seeds; ++seed)
       for (const MeasuredArm& arm : kMeasured)
         if (is_wanted(arm.name) && std::filesystem::exists(options.data)) plan(arm, static_cast<std::uint64_t>(seed));
-    for (int number = 0; number < options.arms && is_wanted("simulated"); ++number)
+    for (int number = 0; number < options.arms && is_wanted("simulated"); ++number) {
+      if (!options.numbers.empty() && std::ranges::count(options.numbers, number) == 0) continue;
       tasks_.emplace_back([number] {
         return run_simulated(number, load_robot(std::filesystem::path(DEMECAL_SOURCE_DIR) / "configs/robots" /
                                                 kRobots[static_cast<std::size_t>(number) % kRobots.size()]));
       });
+    }
     cases_.resize(tasks_.size());
   }
 
@@ -126,7 +130,7 @@ void Bench::write_table() const {
     };
     const std::string named = one->true_causes == 0 ? ""
                                                     : fmt::format("{}/{}+{}", one->with.true_causes_named,
-                                                                  one->true_causes, one->with.false_effects);
+                                                                  one->true_causes, one->with.false_effects.size());
     fmt::print("{:<22}{}{}{:>12}\n", one->name, side(one->without), side(one->with), named);
   }
 }
@@ -138,7 +142,7 @@ void Bench::write_totals() const {
     accept.push_back(one->with.accept_mm / one->without.accept_mm);
     if (one->true_causes == 0) continue;
     const auto is_exact = [&](const DiagnosisFigures& figures) {
-      return figures.true_causes_named == one->true_causes && figures.false_effects == 0 ? 1.0 : 0.0;
+      return figures.true_causes_named == one->true_causes && figures.false_effects.empty() ? 1.0 : 0.0;
     };
     all_named_with.push_back(is_exact(one->with));
     all_named_without.push_back(is_exact(one->without));
@@ -182,6 +186,7 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber);
   app.add_option("--data", options.data, "folder of the measured robots; without it only simulated arms are run");
   app.add_option("--only", options.only, "names of measured robots, or simulated");
+  app.add_option("--numbers", options.numbers, "only these of the simulated arms, from 0");
   app.add_option("--threads", options.threads, "arms at a time; figures but times do not depend on it")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
