@@ -96,6 +96,15 @@ std::vector<std::map<std::string, double>> logged_weights_of(const DataSet& data
 
 }  // namespace
 
+std::vector<bool> candidates_among(const std::vector<Candidate>& candidates, std::span<const Effect> effects) {
+  std::vector<bool> among;
+  for (const Candidate& candidate : candidates) {
+    const auto is_it = [&](const Effect& effect) { return effect.same_law_as(candidate.effect); };
+    among.push_back(candidate.decoy_kind == DecoyKind::none && std::ranges::any_of(effects, is_it));
+  }
+  return among;
+}
+
 double naming_cost_nats(const Effect& effect, const std::vector<Candidate>& candidates) {
   const auto same = std::find_if(candidates.begin(), candidates.end(),
                                  [&](const Candidate& candidate) { return candidate.effect.same_law_as(effect); });

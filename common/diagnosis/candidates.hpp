@@ -47,6 +47,9 @@ struct CandidateOptions {
 std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& evidence, const DeclaredModel& declared,
                                       const CandidateOptions& options);
 
+/// Per candidate, whether it is no decoy and of the same law as one of the effects.
+std::vector<bool> candidates_among(const std::vector<Candidate>& candidates, std::span<const Effect> effects);
+
 /// The price of an effect among candidates; 0 where it is none of them.
 double naming_cost_nats(const Effect& effect, const std::vector<Candidate>& candidates);
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <set>
 #include <string>
 #include <utility>
@@ -120,24 +121,30 @@ bool leave_out_implausible(const LoopEnd& end, const SetModels& models, const st
   return std::erase_if(effects, is_out) > 0;
 }
 
-/// By number of causes, what is left of the model or what evolution found, each shorter than all of fewer causes.
+/// By number of causes, what is left of the model and then what evolution found, where that is shorter by as much as
+/// tells rivals apart; each shorter than all of fewer causes.
 std::vector<EffectSet> worth_having(const SetModels& models, std::vector<EffectSet> pruned,
                                     const std::vector<EffectSet>& evolved) {
+  const std::size_t prunings = pruned.size();
   for (const EffectSet& set : evolved) {
-    const auto same = std::ranges::find(pruned, set.causes, &EffectSet::causes);
-    if (same != pruned.end() && set.description_nats > same->description_nats - kNatsToDistinguish) continue;
-    if (same != pruned.end()) {
-      *same = set;
-    } else {
-      pruned.push_back(set);
-    }
+    const auto end = pruned.begin() + static_cast<std::ptrdiff_t>(prunings);
+    const auto same = std::ranges::find(pruned.begin(), end, set.causes, &EffectSet::causes);
+    if (same == end || set.description_nats <= same->description_nats - kNatsToDistinguish) pruned.push_back(set);
   }
-  std::ranges::sort(pruned, {}, &EffectSet::causes);
+  std::ranges::stable_sort(pruned, {}, &EffectSet::causes);
   std::vector<EffectSet> sets;
-  for (EffectSet& set : pruned) {
-    const bool known = std::ranges::equal(set.effects, models.held());
-    const double least = known ? 0.0 : kNatsToDistinguish;
-    if (sets.empty() || set.description_nats < sets.back().description_nats - least) sets.push_back(std::move(set));
+  double shortest = std::numeric_limits<double>::infinity();  // of fewer causes
+  for (auto first = pruned.begin(); first != pruned.end();) {
+    const auto last =
+        std::find_if(first, pruned.end(), [&](const EffectSet& set) { return set.causes != first->causes; });
+    double own = shortest;
+    for (; first != last; ++first) {
+      const bool known = std::ranges::equal(first->effects, models.held());
+      if (!(first->description_nats < shortest - (known ? 0.0 : kNatsToDistinguish))) continue;
+      own = std::min(own, first->description_nats);
+      sets.push_back(std::move(*first));
+    }
+    shortest = own;
   }
   return sets;
 }
@@ -202,12 +209,14 @@ Explained explained(const LoopEnd& end, const ExplanationSearch& search, const R
                     const std::function<bool(const Round&)>& watch) {
   constexpr int kSteps = 3;
   const SearchedSets searched = searched_sets(end, search, random);
-  const std::vector<EffectSet>& sets = searched.sets;
-  Explained found{.front = judged_front(end.problem, end.model, searched.models, searched.effects, sets),
+  Explained found{.front = judged_front(end.problem, end.model, searched.models, searched.effects, searched.sets),
                   .model = end.model,
                   .best = {},
                   .rounds = {}};
-  const auto is_present = [&](std::size_t point) { return sets[point].effects == searched.models.held(); };
+  const auto set_of = [&](std::size_t point) -> const std::vector<std::size_t>& {
+    return found.front.points[point].set;
+  };
+  const auto is_present = [&](std::size_t point) { return set_of(point) == searched.models.held(); };
   if (!is_present(found.front.chosen)) {
     judge_new_effects(end, searched.models, searched.effects, watch, found);
     if (!found.rounds.empty() && !does_as_well(end.problem, found.model, end.model))
@@ -216,7 +225,7 @@ Explained explained(const LoopEnd& end, const ExplanationSearch& search, const R
   if (found.front.best != found.front.chosen)
     found.best = is_present(found.front.best)
                      ? end.model
-                     : refined(end.problem, searched.models.with(sets[found.front.best].effects), kSteps);
+                     : refined(end.problem, searched.models.with(set_of(found.front.best)), kSteps);
   return found;
 }
 

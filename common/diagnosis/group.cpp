@@ -257,4 +257,13 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
   return std::move(outcome_);
 }
 
+double validation_gain(const GroupOutcome& outcome) {
+  double before_mm = std::numeric_limits<double>::quiet_NaN(), after_mm = before_mm;
+  for (const Round& round : outcome.rounds) {
+    if (std::isnan(before_mm)) before_mm = round.validation_before_mm;
+    if (round.verdict == Verdict::added) after_mm = round.validation_after_mm;
+  }
+  return (before_mm - after_mm) / before_mm;
+}
+
 }  // namespace demecal::inline diagnosis

@@ -47,6 +47,9 @@ struct GroupOutcome {
   bool not_significant = false;              ///< noise alone explains as much as the best candidate left
 };
 
+/// The share by which the effects that were added lower the mean error on the validation poses; NaN: there are none.
+double validation_gain(const GroupOutcome& outcome);
+
 class Group {
  public:
   /// `columns` are the candidates'; `excluded` marks those not to be tried; `null_maxima` is the latest null

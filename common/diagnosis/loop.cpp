@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <optional>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "diagnosis/scan.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
+#include "explanations/error_budget.hpp"
 #include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
@@ -53,9 +53,9 @@ class ClosedLoop {
   void estimate_noise();
   void record_decoys(const Group& group, const GroupOutcome& outcome);
   bool run_group(const Linearization& linearization);
-  bool gain_suffices(const GroupOutcome& outcome) const;
   StopReason reason_to_stop(const GroupOutcome& last) const;
-  Linearization choose_explanation(Linearization linearization, LoopResult& result);
+  Linearization choose_explanation(const Linearization& linearization, LoopResult& result);
+  Linearization choose_explanation(Linearization linearization, const ExplanationSearch& search, LoopResult& result);
   void finish(const Linearization& linearization);
   RandomStream random(RandomPurpose purpose) const {
     return RandomStream{options_.seed, number_of(purpose), static_cast<std::uint64_t>(group_)};
@@ -159,13 +159,9 @@ GroupRules ClosedLoop::rules() const {
 
 /// Candidates that the model holds already, or that the backward step took back.
 std::vector<bool> ClosedLoop::excluded_candidates() const {
-  std::vector<bool> out(candidates_.size(), false);
-  for (std::size_t i = 0; i < candidates_.size(); ++i) {
-    if (candidates_[i].decoy_kind != DecoyKind::none) continue;
-    const auto is_it = [&](const Effect& effect) { return effect.same_law_as(candidates_[i].effect); };
-    out[i] = std::ranges::any_of(model_.robot.effects, is_it) || std::ranges::any_of(outcome_.dropped, is_it);
-  }
-  return out;
+  std::vector<Effect> out = model_.robot.effects;
+  std::ranges::copy(outcome_.dropped, std::back_inserter(out));
+  return candidates_among(candidates_, out);
 }
 
 void ClosedLoop::record_decoys(const Group& group, const GroupOutcome& outcome) {
@@ -182,16 +178,6 @@ StopReason ClosedLoop::reason_to_stop(const GroupOutcome& last) const {
   return last.not_significant ? StopReason::no_structure : StopReason::no_gain;
 }
 
-/// Whether the group lowered the validation error by so much that another one may be worth its while.
-bool ClosedLoop::gain_suffices(const GroupOutcome& outcome) const {
-  double before = std::numeric_limits<double>::quiet_NaN(), after = before;
-  for (const Round& round : outcome.rounds) {
-    if (std::isnan(before)) before = round.validation_before_mm;
-    if (round.verdict == Verdict::added) after = round.validation_after_mm;
-  }
-  return !(before - after < options_.least_gain * before);
-}
-
 /// Whether anything was added and more may follow.
 bool ClosedLoop::run_group(const Linearization& linearization) {
   Group group(problem_, model_, linearization, candidates_, columns_, excluded_candidates(), null_maxima_, rules());
@@ -204,7 +190,8 @@ bool ClosedLoop::run_group(const Linearization& linearization) {
     std::fill(effect.values.begin(), effect.values.end(), 0.0);
     model_.robot.effects.push_back(std::move(effect));
   }
-  const bool more = added && !outcome.winning_decoy && !outcome.stopped && gain_suffices(outcome);
+  const bool more =
+      added && !outcome.winning_decoy && !outcome.stopped && !(validation_gain(outcome) < options_.least_gain);
   if (!more) outcome_.stopped = reason_to_stop(outcome);
   std::ranges::move(outcome.rounds, std::back_inserter(outcome_.rounds));
   return more;
@@ -249,13 +236,26 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   return result;
 }
 
-/// What the effects amount to: better sets of them are looked for, and the fewest causes chosen that do as well.
-Linearization ClosedLoop::choose_explanation(Linearization linearization, LoopResult& result) {
+/// What the effects amount to: better sets of them are looked for, and the fewest causes chosen that do as well. Where
+/// what evolution found is behind what it began with once the backward step is done, it is not used.
+Linearization ClosedLoop::choose_explanation(const Linearization& linearization, LoopResult& result) {
   if (model_.robot.effects.empty()) return linearization;
   ++group_;
   ExplanationSearch search = options_.explanations;
   if (interrupted_) search.variations = 0;
   search.most_effects = static_cast<std::size_t>(options_.max_effects);
+  const DiagnosedModel present = model_;
+  const LoopOutcome so_far = outcome_;
+  Linearization chosen = choose_explanation(linearization, search, result);
+  if (search.variations == 0 || does_as_well(problem_, model_, present)) return chosen;
+  model_ = present;
+  outcome_ = so_far;
+  search.variations = 0;
+  return choose_explanation(linearization, search, result);
+}
+
+Linearization ClosedLoop::choose_explanation(Linearization linearization, const ExplanationSearch& search,
+                                             LoopResult& result) {
   Explained found = explained({problem_, model_, linearization, candidates_, columns_, outcome_.rounds, null_maxima_,
                                rules(), options_.search_explanations},
                               search, random(RandomPurpose::explanation_search), watch_);

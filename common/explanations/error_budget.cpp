@@ -74,17 +74,15 @@ bool is_within_one_standard_error(const SquaredErrors_mm2& errors, const Squared
   return mean <= std::sqrt(variance / count);
 }
 
-/// Whether the point's error is hardly larger than that of the best, and by less than one standard error. Of more
-/// causes than a person acts on, a further one has to earn more.
-bool does_nearly_as_well(const ExplanationFront& front, const std::vector<SquaredErrors_mm2>& errors,
-                         std::size_t point) {
+/// Whether a model's errors are hardly larger than the best ones, and by less than one standard error. Of more causes
+/// than a person acts on, a further one has to earn more.
+bool are_nearly_as_small(const SquaredErrors_mm2& errors, std::size_t causes, const SquaredErrors_mm2& best) {
   constexpr std::size_t kManyCauses = 10;
   constexpr double kHardlyMore = 1.02;  ///< of the rms error: few poses tell even large differences not surely
   constexpr double kMoreOfMany = 1.05;
-  const ExplanationFront::Point &one = front.points[point], &best = front.points[front.best];
-  if (one.causes >= kManyCauses) return one.validation_rms_mm <= kMoreOfMany * best.validation_rms_mm;
-  return one.validation_rms_mm <= kHardlyMore * best.validation_rms_mm &&
-         is_within_one_standard_error(errors[point], errors[front.best]);
+  const double ratio = std::sqrt(mean(errors) / std::max(mean(best), 1e-300));
+  if (causes >= kManyCauses) return ratio <= kMoreOfMany;
+  return ratio <= kHardlyMore && is_within_one_standard_error(errors, best);
 }
 
 /// Whether there is a cause by the loop's tests and by the validation poses: the choice is then of how many.
@@ -107,12 +105,19 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
   ExplanationFront front;
   front.effects = std::move(effects);
   const std::vector<std::size_t> judging = judging_poses(problem, model.robot);
-  std::vector<SquaredErrors_mm2> errors(sets.size());
-  front.points.resize(sets.size());
-  in_pieces(sets.size(), [&](std::size_t i) {
-    errors[i] = squared_errors(problem.data, judging, models.with(sets[i].effects).robot);
-    front.points[i] = {sets[i].effects, sets[i].causes, std::sqrt(mean(errors[i]))};
-  });
+  std::vector<SquaredErrors_mm2> all(sets.size()), errors;
+  in_pieces(sets.size(),
+            [&](std::size_t i) { all[i] = squared_errors(problem.data, judging, models.with(sets[i].effects).robot); });
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    const ExplanationFront::Point point{sets[i].effects, sets[i].causes, std::sqrt(mean(all[i]))};
+    if (front.points.empty() || front.points.back().causes != point.causes) {
+      front.points.push_back(point);
+      errors.push_back(std::move(all[i]));
+    } else if (problem.validation.empty() || point.validation_rms_mm < front.points.back().validation_rms_mm) {
+      front.points.back() = point;
+      errors.back() = std::move(all[i]);
+    }
+  }
   if (sets.empty()) return front;
   const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
   front.best = static_cast<std::size_t>(best - front.points.begin());
@@ -120,15 +125,16 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
   front.chosen = front.best;
   if (problem.validation.empty()) return front;
   front.chosen = is_told_by_all(model, front) ? 1 : 0;
-  while (!does_nearly_as_well(front, errors, front.chosen)) ++front.chosen;
+  while (!are_nearly_as_small(errors[front.chosen], front.points[front.chosen].causes, errors[front.best]))
+    ++front.chosen;
   return front;
 }
 
 bool does_as_well(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& other) {
   if (problem.validation.empty()) return true;
   const std::vector<std::size_t> judging = judging_poses(problem, other.robot);
-  return is_within_one_standard_error(squared_errors(problem.data, judging, model.robot),
-                                      squared_errors(problem.data, judging, other.robot));
+  return are_nearly_as_small(squared_errors(problem.data, judging, model.robot), causes_of(model.robot).size(),
+                             squared_errors(problem.data, judging, other.robot));
 }
 
 void choose(const DiagnosisProblem& problem, const DiagnosedModel& model, ExplanationFront& front) {

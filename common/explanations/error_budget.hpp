@@ -42,14 +42,15 @@ struct ExplanationFront {
 
 /// Judges sets of the effects by the errors they leave at problem.validation (where there are no such poses at those
 /// that were fitted, and the most causes are chosen), poses in gross error by `model` left out: a model of every set to
-/// first order about `model`. `sets` are by number of causes, from none. Of them the one of the fewest causes is chosen
+/// first order about `model`. `sets` are by number of causes, from none; of several of a number the one of the least
+/// error stands for it (without poses that judge the last). Of them the one of the fewest causes is chosen
 /// whose error is at most 1.02 times the least and whose mean square is within one standard error of it (paired), or
 /// that of ten causes or more whose error is at most 1.05 times the least. Not none where `model` has causes and the
 /// next set errs less: that there is a cause the loop's tests have said, and what is left to choose is how many.
 ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
                               std::vector<PricedEffect> effects, const std::vector<EffectSet>& sets);
 
-/// Whether the model errs no more than another at problem.validation, or more by less than one standard error (paired).
+/// Whether the model errs at problem.validation no more than the rule of judged_front() allows beside another one.
 bool does_as_well(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& other);
 
 /// Makes `model`, fitted to problem.fitted, the chosen point of the front, whatever was chosen before.

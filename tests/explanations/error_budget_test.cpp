@@ -140,6 +140,26 @@ TEST_F(TwoCauses, AModelThatErrsLessIsChosenOverItsParts) {
   EXPECT_FALSE(does_as_well(*problem_, models.with({}), model_));
 }
 
+TEST_F(TwoCauses, OfSetsOfAsManyCausesTheOneThatErrsLeastStandsForThem) {
+  const SetModels models = models_about(*problem_, model_);
+  std::vector<EffectSet> sets(3);
+  sets[0] = {.effects = {}, .causes = 0};
+  std::vector<double> left_mm;
+  for (const std::size_t first : {std::size_t{0}, std::size_t{1}}) {
+    sets[1] = {.effects = {first}, .causes = 1};
+    sets[2] = {.effects = {1 - first}, .causes = 1};
+    const ExplanationFront front = judged_front(*problem_, model_, models, {}, sets);
+    ASSERT_EQ(front.points.size(), 2U);
+    left_mm.push_back(front.points[1].validation_rms_mm);
+    for (const std::size_t only : {first, 1 - first}) {
+      sets[1] = {.effects = {only}, .causes = 1};
+      const auto alone = judged_front(*problem_, model_, models, {}, {sets[0], sets[1]});
+      EXPECT_LE(front.points[1].validation_rms_mm, alone.points[1].validation_rms_mm);
+    }
+  }
+  EXPECT_EQ(left_mm[0], left_mm[1]);
+}
+
 /// The front of a model with one small effect, which its arm has.
 ExplanationFront front_of_small_backlash(std::uint64_t seed, bool has_effect) {
   Scenario scenario = perfect_scenario(parallel_arm(), seed);

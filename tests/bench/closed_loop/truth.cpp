@@ -116,8 +116,11 @@ bool is_truth(const Effect& found, const Effect& truth, const Robot& robot, cons
   if (truth.kind != "symbolic") return true;
   Effect unit = found;
   if (unit.values.empty()) unit.values.assign(law_of(found).coefficients(found, robot).size(), 1.0);
-  const Eigen::VectorXd ours = joint_motion(truth, robot, states), theirs = joint_motion(unit, robot, states);
-  const Eigen::VectorXd a = ours.array() - ours.mean(), b = theirs.array() - theirs.mean();
+  return go_together(joint_motion(truth, robot, states), joint_motion(unit, robot, states));
+}
+
+bool go_together(const Eigen::VectorXd& one, const Eigen::VectorXd& other) {
+  const Eigen::VectorXd a = one.array() - one.mean(), b = other.array() - other.mean();
   return std::abs(a.dot(b)) > kGoTogether * a.norm() * b.norm();
 }
 

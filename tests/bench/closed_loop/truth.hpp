@@ -16,6 +16,9 @@ void inject(Scenario& scenario, const Effect& truth);
 /// beyond 0.95), however they are written.
 bool is_truth(const Effect& found, const Effect& truth, const Robot& robot, const std::vector<ArmState>& states);
 
+/// Whether two motions over the same states are correlated beyond 0.95.
+bool go_together(const Eigen::VectorXd& one, const Eigen::VectorXd& other);
+
 /// The nominal arm at every pose of a set, the tool point where it was measured.
 std::vector<ArmState> states_of(const DataSet& data, PoseSet set);
 

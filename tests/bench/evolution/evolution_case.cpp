@@ -10,6 +10,7 @@
 #include "closed_loop/case_plan.hpp"
 #include "closed_loop/draw_truth.hpp"
 #include "closed_loop/scene.hpp"
+#include "closed_loop/score.hpp"
 #include "closed_loop/truth.hpp"
 #include "diagnosis/loop.hpp"
 #include "prediction/measurement.hpp"
@@ -22,15 +23,61 @@ namespace {
 constexpr std::uint64_t kFirstSeed = 20261200;
 constexpr std::uint64_t kTruth = 22;  ///< of an arm's random streams
 
-/// "backlash (from 3), joint 5"
-std::string name_of(const Effect& effect) {
-  std::string name = effect.kind;
-  for (const auto& [setting, value] : effect.settings) name += fmt::format(" ({} {})", setting, value);
-  if (!effect.form.empty()) name += " (" + effect.form + ")";
-  return fmt::format("{}, joint {}", name, effect.joint + 1);
-}
+/// What a diagnosis calls the truths of an arm.
+class Naming {
+ public:
+  /// Keeps all by reference.
+  Naming(const CorrectedRobot& found, const LoopOutcome& loop, const Robot& robot, const std::vector<ArmState>& states)
+      : found_(found), loop_(loop), robot_(robot), states_(states) {}
 
-DiagnosisFigures diagnosed(const DataSet& data, const DeclaredModel& declared, std::uint64_t seed, bool evolve,
+  bool names(const Effect& truth) const {
+    return std::ranges::any_of(found_.effects, [&](const Effect& found) { return is_it(found, truth); });
+  }
+  bool is_of(const Effect& found, const std::vector<Effect>& truths) const {
+    return std::ranges::any_of(truths, [&](const Effect& truth) { return is_it(found, truth); });
+  }
+  /// Whether every effect is a truth or stands in the place of one that is not named and that these poses do not tell
+  /// from it, and every truth is one of these.
+  bool is_exact_but_for_class(const std::vector<Effect>& truths) const {
+    std::vector<bool> told;
+    for (const Effect& truth : truths) told.push_back(names(truth));
+    for (const Effect& found : found_.effects) {
+      if (is_of(found, truths)) continue;
+      std::size_t i = 0;
+      while (i < truths.size() && (told[i] || !is_one_with(found, truths[i]))) ++i;
+      if (i == truths.size()) return false;
+      told[i] = true;
+    }
+    return std::ranges::count(told, false) == 0;
+  }
+
+ private:
+  /// Formulas of a joint count together, however many a law is written as.
+  bool is_it(const Effect& found, const Effect& truth) const {
+    if (is_truth(found, truth, robot_, states_)) return true;
+    if (!is_symbolic(found) || !is_symbolic(truth) || found.joint != truth.joint) return false;
+    Eigen::VectorXd motion = Eigen::VectorXd::Zero(std::ssize(states_));
+    for (const Effect& other : found_.effects)
+      if (is_symbolic(other) && other.joint == truth.joint) motion += joint_motion(other, robot_, states_);
+    return go_together(motion, joint_motion(truth, robot_, states_));
+  }
+
+  bool is_one_with(const Effect& found, const Effect& truth) const {
+    constexpr double kAsOne = 0.98;
+    return std::ranges::any_of(loop_.rounds, [&](const Round& round) {
+      return round.effect.same_law_as(found) && std::ranges::any_of(round.rivals, [&](const Rival& rival) {
+               return rival.cosine > kAsOne && is_truth(rival.effect, truth, robot_, states_);
+             });
+    });
+  }
+
+  const CorrectedRobot& found_;
+  const LoopOutcome& loop_;
+  const Robot& robot_;
+  const std::vector<ArmState>& states_;
+};
+
+EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, std::uint64_t seed, bool evolve,
                            const std::vector<Effect>& truths) {
   Job job;
   job.name = data.name;
@@ -40,7 +87,7 @@ DiagnosisFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
   if (!evolve) job.explanations.variations = 0;
   const auto begin = std::chrono::steady_clock::now();
   const CalibrateResult result = diagnose(data, job, std::nullopt, {}).result;
-  DiagnosisFigures figures;
+  EvolutionFigures figures;
   figures.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   figures.front = result.calibration.budget.front;
   figures.causes = result.calibration.budget.causes.size();
@@ -50,16 +97,13 @@ DiagnosisFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
   figures.accept_mm = error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
   if (truths.empty()) return figures;
   const std::vector<ArmState> states = states_of(data, PoseSet::calibration);
-  const auto among = [&](const std::vector<Effect>& found, const Effect& truth) {
-    return std::ranges::any_of(found, [&](const Effect& one) { return is_truth(one, truth, data.robot, states); });
-  };
+  const Naming naming(robot, result.loop, data.robot, states);
   for (const Effect& truth : truths)
-    if (!among(robot.effects, truth)) figures.missed.push_back(name_of(truth));
-  for (const Effect& found : robot.effects) {
-    const auto is_it = [&](const Effect& truth) { return is_truth(found, truth, data.robot, states); };
-    if (std::ranges::none_of(truths, is_it)) figures.false_effects.push_back(name_of(found));
-  }
+    if (!naming.names(truth)) figures.missed.push_back(words(truth, data.robot));
+  for (const Effect& found : robot.effects)
+    if (!naming.is_of(found, truths)) figures.false_effects.push_back(words(found, data.robot));
   figures.true_causes_named = truths.size() - figures.missed.size();
+  figures.is_exact_but_for_class = naming.is_exact_but_for_class(truths);
   return figures;
 }
 
@@ -83,7 +127,7 @@ std::vector<std::string> drawn_kinds(bool outside, RandomStream& random) {
 
 }  // namespace
 
-double DiagnosisFigures::validation_with(std::size_t most) const {
+double EvolutionFigures::validation_with(std::size_t most) const {
   double least = HUGE_VAL;
   for (const FrontPoint& point : front)
     if (point.causes <= most) least = std::min(least, point.validation_rms_mm);

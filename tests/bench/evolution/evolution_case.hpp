@@ -14,13 +14,14 @@
 namespace demecal::bench {
 
 /// What one diagnosis left.
-struct DiagnosisFigures {
+struct EvolutionFigures {
   std::vector<FrontPoint> front;
   std::size_t causes = 0, effects = 0;          ///< of the chosen model
   double validation_mm = 0.0, accept_mm = 0.0;  ///< rms; validation while it was unseen
   std::size_t true_causes_named = 0;            ///< of a simulated arm
   std::vector<std::string> missed;              ///< true causes that are not named
   std::vector<std::string> false_effects;
+  bool is_exact_but_for_class = false;  ///< nothing is missed or false but where these poses tell no difference
   double seconds = 0.0;
 
   /// The least error on the validation poses with at most so many causes.
@@ -31,7 +32,7 @@ struct EvolutionCase {
   std::string name;
   std::size_t true_causes = 0;  ///< undeclared ones of a simulated arm, one outside the catalogue among them or not
   bool outside = false;
-  DiagnosisFigures without, with;
+  EvolutionFigures without, with;
 };
 
 EvolutionCase run_measured(const std::string& name, const DataSet& data, const DeclaredModel& declared,
