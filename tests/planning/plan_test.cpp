@@ -101,6 +101,17 @@ TEST(Plan, BeatsAsManyRandomPosesAndReachesTheAccuracyAskedFor) {
   EXPECT_THROW(make_plan(request), InputError);
 }
 
+/// Against a bound that no poses get below: what is left to gain is little.
+TEST(Plan, IsNearTheBestThatAsManyPosesCanBe) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const Plan few = make_plan(request_of(15, seed)), many = make_plan(request_of(40, seed));
+    EXPECT_LE(few.bound_rms_m, few.predicted.rms_m);
+    EXPECT_LT(few.predicted.rms_m, 1.07 * few.bound_rms_m);
+    EXPECT_LE(many.bound_rms_m, many.predicted.rms_m);
+    EXPECT_LT(many.predicted.rms_m, 1.03 * many.bound_rms_m);
+  }
+}
+
 TEST(Plan, SaysWhatItsPosesCannotTell) {
   PlanRequest request = request_of(16);
   request.robot.chain.tool_m = {0.0, 0.0, 0.1};  // on the axis of the last joint
