@@ -160,6 +160,22 @@ TEST(Plan, GoesOnFromWhatWasMeasured) {
   EXPECT_EQ(make_plan(request).counts[2], 3u);
 }
 
+/// Whatever no program drives to is counted and named: postures that no way within the box joins.
+TEST(Plan, NamesThePosesThatProgramsLeaveOut) {
+  PlanRequest request = request_of(10);
+  request.cell = assumed_cell(request.robot);
+  request.cell->tool_box = Eigen::AlignedBox3d(Eigen::Vector3d(0.3, -0.1, 0.4), Eigen::Vector3d(0.5, 0.1, 0.6));
+  const Plan plan = make_plan(request);
+  ASSERT_FALSE(plan.way.blocked.empty());
+  std::size_t reached = 0;
+  for (const WayStop& stop : plan.way.stops) reached += stop.pose >= 0 ? 1 : 0;
+  EXPECT_EQ(reached + plan.way.blocked.size(), plan.stops.size());
+  EXPECT_THAT(plan.warnings,
+              testing::Contains(testing::AllOf(testing::HasSubstr(std::to_string(plan.way.blocked.size()) + " of " +
+                                                                  std::to_string(plan.stops.size()) + " poses"),
+                                               testing::HasSubstr(plan.stops[plan.way.blocked.front()].id))));
+}
+
 TEST(Plan, RefusesACellWithoutRoom) {
   PlanRequest request = request_of(12);
   request.cell = assumed_cell(request.robot);
