@@ -26,6 +26,7 @@
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "terminal/report_text.hpp"
+#include "trials/finding.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal {
@@ -166,6 +167,15 @@ void write_refusal(const std::string& folder, const std::string& job, const Chec
   remove_earlier_results(folder, {"report.json", "report.html"});
   write_result(folder, "report.json", to_json(report));
   write_result(folder, "report.html", report_html(report, {}));
+}
+
+void say_if_doubtful(const CalibratedModel& model, const std::string& file) {
+  if (model.data_findings.empty() || contradicts(model.data_findings.front())) return;
+  fmt::print(
+      stderr,
+      "{}: the check of the data that it was made from found what may be wrong with them ({}): see data_check in "
+      "its report.json\n",
+      file, fmt::join(model.data_findings, ", "));
 }
 
 }  // namespace demecal

@@ -62,6 +62,8 @@ void add_new(CLI::App& app, ExitCode& exit_code);
 
 /// Says on standard error that a fleet's mean is no calibrated robot.
 void say_if_fleet(const CalibratedModel& model, const std::string& file);
+/// Says on standard error that the data of the model had findings, none of which contradicts the arm.
+void say_if_doubtful(const CalibratedModel& model, const std::string& file);
 
 /// A data set as every command takes it up: read, checked against its robot, and what was found said first.
 struct CheckedData {

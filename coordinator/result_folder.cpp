@@ -154,9 +154,13 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
   const Method method = result.model.method;
   const std::string model_path = folder + "/model.yaml";
   remove_earlier_results(folder, result_files(method));
-  write_result(folder, "model.yaml", model_text(result.model));
+  const auto with_findings = [&](CalibratedModel model) {
+    model.data_findings = result.check.kinds();
+    return model_text(model);
+  };
+  write_result(folder, "model.yaml", with_findings(result.model));
   if (result.best) {
-    write_result(folder, "model-best.yaml", model_text(*result.best));
+    write_result(folder, "model-best.yaml", with_findings(*result.best));
   } else {
     std::filesystem::remove(folder + "/model-best.yaml");
   }

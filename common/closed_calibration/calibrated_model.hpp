@@ -67,6 +67,7 @@ struct CalibratedModel {
   std::optional<FleetOrigin> fleet{};
   std::string data_name;
   std::string data_sha256;
+  std::vector<std::string> data_findings{};  ///< kinds of findings of the data check; none in models of old versions
   bool approach_recorded = true;  ///< the data state the sides that joints came from; true in models of old versions
   std::uint64_t seed = 0;
   std::string version;

@@ -131,6 +131,10 @@ std::vector<std::string> lacks_of_links(const CalibratedModel& model) {
                     rounded_mm_text(sum_m / kSampledPoses) + " on average and " + rounded_mm_text(most_m) +
                     " at most; `apply` and `export --format c` hold them");
   }
+  if (!model.declared.registration && !model.job.empty())
+    notes.emplace_back(
+        "links begin at the arm's base as described, for where it stands was not fitted: the first joint's zero and "
+        "height are those of the drawing where they were not measured otherwise");
   if ((tool_m - model.nominal.chain.tool_m).norm() > 1e-6)
     notes.push_back("the tool point is left out: identified at " + rounded_mm_text(tool_m.x()) + ", " +
                     rounded_mm_text(tool_m.y()) + ", " + rounded_mm_text(tool_m.z()) + " in the flange's frame");

@@ -144,11 +144,13 @@ std::string plan_head(const Plan& plan, const PlanRequest& request) {
   return fmt::format(
       "<p class=\"soft\">Measurement plan</p>\n<h1>{}</h1>\n<p class=\"soft\">{} calibration, {} validation, {} accept "
       "poses; seed {}</p>\n{}<p class=\"headline\">Predicted mean error of the tool after calibration: <b>{:.3g} mm</b>"
-      "</p>\n<div class=\"tiles\">\n{}{}{}{}</div>\n",
+      "</p>\n<div class=\"tiles\">\n{}{}{}{}{}</div>\n",
       escaped(request.robot.name), plan.counts[0], plan.counts[1], plan.counts[2], request.seed, warnings,
       millimetres(plan.predicted.mean_m), plan_tile("rms error", millimetres(plan.predicted.rms_m), "planned poses"),
       plan_tile("95 % below", millimetres(plan.predicted.p95_m), "planned poses"),
       plan_tile("rms error", millimetres(plan.random_rms_m), "as many poses at random"),
+      plan_tile("rms error", millimetres(plan.bound_rms_m),
+                fmt::format("lower bound for any {} poses", plan.counts[0])),
       plan_tile("measurement noise", millimetres(plan.noise_m), "per axis"));
 }
 

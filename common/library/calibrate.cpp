@@ -92,6 +92,7 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   CalibrateResult result = calibrate(data, to_job(settings), make_pool, reporter.interrupt(), options);
   auto arm = std::make_shared<CalibratedArm::Implementation>();
   arm->model = std::move(result.model);
+  arm->model.data_findings = measured.implementation().check.kinds();
   arm->text = model_text(arm->model);
   CalibratedModel written = read_model(arm->text, "model.yaml");  // whose numbers have fewer digits here and there
   arm->model.robot = std::move(written.robot);

@@ -223,9 +223,9 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
   }
   if (!plan.way.blocked.empty())
     plan.warnings.push_back(
-        fmt::format("No free way was found to {}: programs leave these poses out. Drive there by hand, or measure "
-                    "without them.",
-                    poses_by_hand(plan)));
+        fmt::format("No way that keeps to the cell was found to {} of {} poses: programs leave {} out. Drive there by "
+                    "hand, measure without them, or widen the cell.",
+                    plan.way.blocked.size(), plan.stops.size(), poses_by_hand(plan)));
 }
 
 }  // namespace demecal::inline planning

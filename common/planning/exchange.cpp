@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <optional>
 #include <utility>
 
-#include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
-#include "expression/bound.hpp"
-#include "kinematics/chain.hpp"
-#include "planning/sockets.hpp"
+#include "planning/moved_pose.hpp"
 #include "planning/travel.hpp"
 
 namespace demecal::inline planning {
@@ -109,11 +105,9 @@ void Design::exchange(int rounds, double least_gain) {
 
 namespace {
 
-constexpr int kRefinements = 8, kRefinementTries = 30;
-constexpr double kWidest = 0.25, kNarrowing = 0.7;  ///< of a joint's range: how far tries of a round go
-constexpr double kOneJoint = 0.5;                   ///< share of tries that move a single joint, anywhere
-constexpr double kOtherSide = 0.3;                  ///< share of tries that come from sides drawn anew
-constexpr double kLeastRoundGain = 2e-3;            ///< of a round, over what there was
+constexpr int kRefinements = 24, kRefinementTries = 60;
+constexpr double kWidest = 0.25, kNarrowing = 0.85;  ///< of a joint's range: how far tries of a round go
+constexpr double kLeastRoundGain = 5e-4;             ///< of a round, over what there was
 
 /// By how much rows would lower the expected squared error, at one state of knowledge.
 class PoseGain {
@@ -131,34 +125,6 @@ class PoseGain {
   const Eigen::MatrixXd& covariance_;
   Eigen::MatrixXd wanted_;
 };
-
-/// Nothing where the pose touches a socket that the arm does not reach from there.
-std::optional<PlannedPose> moved_pose(const FeasibleSpace& space, const std::vector<PlannedSocket>& sockets,
-                                      const PlannedPose& pose, double width, RandomStream& random) {
-  const std::vector<Interval>& ranges = space.ranges();
-  PlannedPose tried = pose;
-  const auto set = [&](std::size_t joint, double value) {
-    tried.joints[static_cast<Eigen::Index>(joint)] = std::clamp(value, ranges[joint].lower, ranges[joint].upper);
-  };
-  if (random.chance(kOneJoint)) {
-    const std::size_t joint = random.index(ranges.size());
-    set(joint, random.real(ranges[joint].lower, ranges[joint].upper));
-  } else {
-    for (std::size_t joint = 0; joint < ranges.size(); ++joint)
-      set(joint, tried.joints[static_cast<Eigen::Index>(joint)] +
-                     width * (ranges[joint].upper - ranges[joint].lower) * random.normal());
-  }
-  const Chain& chain = space.robot().chain;
-  if (pose.socket) {
-    const auto touching = joints_touching(chain, tried.joints, sockets[*pose.socket].place_m);
-    if (!touching) return {};
-    tried.joints = *touching;
-  }
-  tried.joints = rounded(chain, tried.joints);
-  if (random.chance(kOtherSide))
-    for (double& sign : tried.approach) sign = random.chance(0.5) ? 1.0 : -1.0;
-  return tried;
-}
 
 }  // namespace
 

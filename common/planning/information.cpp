@@ -208,6 +208,15 @@ ScaledJacobian InformationModel::jacobian(const std::vector<PlannedPose>& poses)
   return ScaledJacobian(factor.factor());
 }
 
+Eigen::MatrixXd stacked_rows(const InformationModel& model, std::span<const PlannedPose> poses) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(poses.size()) * model.rows_per_pose(),
+                       static_cast<Eigen::Index>(model.ids().size()));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    rows.middleRows(static_cast<Eigen::Index>(i) * model.rows_per_pose(), model.rows_per_pose()) =
+        model.measured_rows(poses[i]);
+  return rows;
+}
+
 Workspace::Workspace(const InformationModel& model, const std::vector<PlannedPose>& places) {
   const auto n = static_cast<Eigen::Index>(model.ids().size());
   for (const PlannedPose& place : places) rows_.push_back(model.tool_rows(place));

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -75,6 +76,9 @@ class InformationModel {
   Eigen::VectorXd beliefs_;
   int rows_per_pose_ = 3;
 };
+
+/// What poses measure (measured_rows), one after another.
+Eigen::MatrixXd stacked_rows(const InformationModel& model, std::span<const PlannedPose> poses);
 
 /// How far the tool's predicted position will be off, over many places.
 struct PredictedError {

@@ -14,6 +14,7 @@
 #include "kinematics/units.hpp"
 #include "planning/assumptions.hpp"
 #include "planning/candidates.hpp"
+#include "planning/design_bound.hpp"
 #include "planning/exchange.hpp"
 #include "planning/sockets.hpp"
 #include "planning/stops.hpp"
@@ -44,15 +45,6 @@ std::size_t candidates_for(const InformationModel& model, std::size_t poses) {
   const double numbers = std::max(20.0, static_cast<double>(model.ids().size()));
   const double affordable = 1200.0 * std::pow(33.0 / numbers, 2.0) * 3.0 / model.rows_per_pose();
   return std::max({static_cast<std::size_t>(std::clamp(affordable, 300.0, 1500.0)), 3 * poses});
-}
-
-Eigen::MatrixXd stacked_rows(const InformationModel& model, std::span<const PlannedPose> poses) {
-  Eigen::MatrixXd rows(static_cast<Eigen::Index>(poses.size()) * model.rows_per_pose(),
-                       static_cast<Eigen::Index>(model.ids().size()));
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    rows.middleRows(static_cast<Eigen::Index>(i) * model.rows_per_pose(), model.rows_per_pose()) =
-        model.measured_rows(poses[i]);
-  return rows;
 }
 
 FeasibleSpace space_of(const PlanRequest& request) {
@@ -87,6 +79,7 @@ class Planning {
     for (const std::size_t i : design.chosen()) chosen.push_back(candidates_[i]);
     const RefinedPoses refined_poses = refined(model_, space_, std::move(chosen), known, workspace.weight(), stream(5));
     take(refined_poses, workspace);
+    bound(refined_poses.poses, known, workspace);
     draw_curve(empty, workspace, refined_poses.poses.size());
     set_stops(refined_poses.poses);
     describe_assumptions(request_, space_, model_, plan_);
@@ -195,6 +188,13 @@ class Planning {
     plan_.effects = model_.model().effects;
     plan_.predicted = workspace.predicted(refined_poses.covariance);
     describe_numbers(model_, refined_poses.poses, refined_poses.covariance, plan_);
+  }
+
+  void bound(const std::vector<PlannedPose>& planned, const Eigen::MatrixXd& known, const Workspace& workspace) {
+    std::vector<PlannedPose> poses = candidates_;
+    poses.insert(poses.end(), planned.begin(), planned.end());
+    plan_.bound_rms_m = std::sqrt(
+        least_square_m2(model_, space_, std::move(poses), known, workspace.weight(), planned.size(), stream(6)));
   }
 
   void draw_curve(const Design& empty, const Workspace& workspace, std::size_t chosen) {

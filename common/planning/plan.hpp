@@ -82,6 +82,7 @@ struct Plan {
   double noise_m = 0.0;                 ///< of a measured position, per axis, as the predictions take it
   PredictedError predicted;             ///< of the tool, without what measuring adds
   double random_rms_m = 0.0;            ///< of as many poses drawn at random
+  double bound_rms_m = 0.0;             ///< no poses of this space leave less, as many as these
   std::vector<CurvePoint> curve;
   std::vector<PlannedSocket> sockets;    ///< as poses count them: those of accept poses last
   std::vector<KnownDistance> lengths;    ///< between two of them

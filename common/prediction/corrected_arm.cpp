@@ -142,7 +142,7 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
   return arm;
 }
 
-Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title) {
+Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title, PoseFrame frame) {
   Listing listing{{title}, arm.actual, arm.pose};
   std::string units;
   for (int joint = 0; joint < robot.chain.size(); ++joint) {
@@ -150,7 +150,11 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
     units += is_revolute(robot.chain, joint) ? " in rad" : " in m";
   }
   listing.remarks.push_back("Commanded joints: " + units + "; h1 .. hn say where the joints then are.");
-  listing.remarks.emplace_back("The pose is the tool's in the frame of the measurements, lengths in m, row by row.");
+  listing.remarks.emplace_back(
+      frame == PoseFrame::own_base
+          ? "The pose is the tool's in the frame of the arm's base as described, for where the base stands was not "
+            "fitted; lengths in m, row by row."
+          : "The pose is the tool's in the frame of the measurements, lengths in m, row by row.");
   for (const std::string& note : arm.notes) listing.remarks.push_back("Note: " + note);
   return listing;
 }

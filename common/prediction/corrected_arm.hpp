@@ -27,8 +27,12 @@ struct CorrectedArm {
 /// time. The expressions live in `algebra`. The robot must have the target.
 CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target);
 
+/// Whose frame poses stand in: of a model whose base was not fitted, as from contacts, that of the arm's own base.
+enum class PoseFrame { measurements, own_base };
+
 /// The listing of the formulas with the remarks that a reader needs: what it is, units, frames, and the notes.
-Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title);
+Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title,
+                   PoseFrame frame = PoseFrame::measurements);
 
 /// The listing of the arm as `robot.described` has it, in the base and with the tool of `robot`: what inverse_in_c()
 /// corrects for.

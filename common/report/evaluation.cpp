@@ -158,10 +158,7 @@ DataCheckEntry data_check_entry(const DataCheck& check) {
 }
 
 bool contradicts(const FindingEntry& finding) {
-  for (int kind = 0; kind <= static_cast<int>(FindingKind::other_robot); ++kind) {
-    if (finding.kind == to_string(static_cast<FindingKind>(kind))) return contradicts(static_cast<FindingKind>(kind));
-  }
-  return false;
+  return trials::contradicts(finding.kind);
 }
 
 std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, const DataSet& data) {

@@ -151,7 +151,8 @@ std::string to_json(const Plan& plan, const PlanRequest& request, const std::vec
             {"poses", {{"calibration", plan.counts[0]}, {"validation", plan.counts[1]}, {"accept", plan.counts[2]}}},
             {"noise_mm", millimetres(plan.noise_m)},
             {"predicted_error_mm", {}},
-            {"random_rms_mm", millimetres(plan.random_rms_m)}};
+            {"random_rms_mm", millimetres(plan.random_rms_m)},
+            {"bound_rms_mm", millimetres(plan.bound_rms_m)}};
   json["predicted_error_mm"] = error_json(plan.predicted);
   json["curve"] = Json::array();
   for (const CurvePoint& point : plan.curve) {

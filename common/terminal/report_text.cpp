@@ -267,6 +267,8 @@ std::string to_terminal(const Plan& plan, const PlanRequest& request) {
       millimetres(plan.predicted.rms_m), millimetres(plan.predicted.mean_m), millimetres(plan.predicted.p95_m));
   if (plan.random_rms_m > 0.0)
     text += fmt::format("  as many poses at random: rms {:.3g} mm\n", millimetres(plan.random_rms_m));
+  text += fmt::format("  lower bound for any {} poses{}: rms {:.3g} mm\n", plan.counts[0],
+                      plan.sockets.empty() ? " in this cell" : " at these sockets", millimetres(plan.bound_rms_m));
   if (!plan.by_places.empty()) text += fmt::format("  as many random poses at {} (rms)\n", places_sentence(plan));
   for (const std::string& sentence : socket_sentences(plan)) text += "  " + sentence + '\n';
   for (const std::string& warning : plan.warnings) text += wrapped("  !", warning, kIndent);

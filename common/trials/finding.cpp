@@ -68,6 +68,11 @@ bool contradicts(FindingKind kind) {
   return row_of(kind).contradicts;
 }
 
+bool contradicts(std::string_view kind) {
+  const auto row = std::ranges::find(kKinds, kind, &KindRow::name);
+  return row != kKinds.end() && row->contradicts;
+}
+
 std::string_view to_string(DataVerdict verdict) {
   constexpr std::array<std::string_view, 3> kWords{"plausible", "suspicious", "contradiction"};
   return kWords.at(static_cast<std::size_t>(verdict));
@@ -81,6 +86,18 @@ DataVerdict DataCheck::verdict() const {
 
 bool DataCheck::has(FindingKind kind) const {
   return std::ranges::any_of(findings, [kind](const Finding& one) { return one.kind == kind; });
+}
+
+std::vector<std::string> DataCheck::kinds() const {
+  std::vector<std::string> names;
+  for (const bool contradicting : {true, false}) {
+    for (const Finding& finding : findings) {
+      const std::string_view name = to_string(finding.kind);
+      if (contradicts(finding.kind) == contradicting && std::ranges::find(names, name) == names.end())
+        names.emplace_back(name);
+    }
+  }
+  return names;
 }
 
 std::string distance_text(double metres_value) {

@@ -50,6 +50,8 @@ std::string_view to_string(FindingKind kind);
 
 /// Whether a finding of this kind is of the data set as a whole, so that no model of it means anything.
 bool contradicts(FindingKind kind);
+/// The same of a kind by its name; false of names that are none.
+bool contradicts(std::string_view kind);
 
 struct Finding {
   FindingKind kind = FindingKind::outlier;
@@ -73,6 +75,8 @@ struct DataCheck {
   DataVerdict verdict() const;
   /// Whether a finding of that kind is there.
   bool has(FindingKind kind) const;
+  /// The names of the kinds that were found, each once, those that contradict the arm first.
+  std::vector<std::string> kinds() const;
 };
 
 /// "0.21 mm", with as many digits as a reader needs.

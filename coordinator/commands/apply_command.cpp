@@ -211,6 +211,7 @@ ExitCode run_apply(const ApplyRequest& request) {
     require_writable(places[file], source.files()[file], source.files(), request.force);
   const CalibratedModel calibrated = load_model(request.model_file);
   say_if_fleet(calibrated, request.model_file);
+  say_if_doubtful(calibrated, request.model_file);
   const CommandModel model = command_model_of(calibrated, request);
   refuse_corrected(source.files());
   const Language& language = language_asked(request, source.files().front().text);

@@ -83,11 +83,11 @@ struct ExportedListing {
 };
 
 ExportedListing listing_of_robot(Algebra& algebra, const ExportRequest& request, const CorrectedRobot& robot,
-                                 const std::string& title) {
+                                 const std::string& title, PoseFrame frame) {
   require_target(request, robot);
   const CorrectedArm arm = corrected_arm(algebra, robot, request.target);
   for (const std::string& note : arm.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
-  return {listing_of(arm, robot, title), inverse_in_c(described_listing(algebra, robot, request.target))};
+  return {listing_of(arm, robot, title, frame), inverse_in_c(described_listing(algebra, robot, request.target))};
 }
 
 /// By what the file says that it is: a model, a robot, or matrices.
@@ -96,13 +96,15 @@ ExportedListing listing_asked(Algebra& algebra, const ExportRequest& request) {
   if (file.find("demecal_matrices") != nullptr) return {load_matrices(algebra, request.file)};
   if (file.find("demecal_robot") != nullptr) {
     const Robot robot = load_robot(request.file);
-    return listing_of_robot(algebra, request, as_drawn(robot), robot.name + " as its maker describes it");
+    return listing_of_robot(algebra, request, as_drawn(robot), robot.name + " as its maker describes it",
+                            PoseFrame::own_base);
   }
   const CalibratedModel model = load_model(request.file);
   say_if_fleet(model, request.file);
   const std::string title =
       fmt::format("{} as calibrated by the job {} (demecal {})", model.nominal.name, model.job, model.version);
-  return listing_of_robot(algebra, request, model.robot, title);
+  return listing_of_robot(algebra, request, model.robot, title,
+                          model.declared.registration ? PoseFrame::measurements : PoseFrame::own_base);
 }
 
 void write_or_print(const ExportRequest& request, const std::string& text) {

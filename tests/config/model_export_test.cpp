@@ -249,5 +249,15 @@ TEST(UrCalibration, IsRefusedOfOtherArms) {
   EXPECT_THAT(of("kuka-iiwa7.yaml"), HasSubstr("is no arm of Universal Robots"));
 }
 
+TEST(ExportedUrdf, SaysWhereTheBaseWasNotFitted) {
+  const TemporaryFolder folder;
+  CalibratedModel model = model_of(imported(folder, kUrdf));
+  model.job = "a job";
+  const auto said = Contains(HasSubstr("where it stands was not fitted"));
+  EXPECT_THAT(lacks_of_links(model), said);
+  model.declared.registration = true;
+  EXPECT_THAT(lacks_of_links(model), testing::Not(said));
+}
+
 }  // namespace
 }  // namespace demecal

@@ -77,6 +77,8 @@ TEST(ModelFile, KeepsHowTheModelWasFound) {
     model.method = method;
     EXPECT_EQ(written_and_read(model).method, method) << to_string(method);
   }
+  model.data_findings = {"wrong_length", "outlier"};
+  EXPECT_EQ(written_and_read(model).data_findings, model.data_findings);
 }
 
 TEST(ModelFile, PredictsTheSameAfterwards) {

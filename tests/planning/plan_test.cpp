@@ -101,6 +101,17 @@ TEST(Plan, BeatsAsManyRandomPosesAndReachesTheAccuracyAskedFor) {
   EXPECT_THROW(make_plan(request), InputError);
 }
 
+/// Against a bound that no poses get below: what is left to gain is little.
+TEST(Plan, IsNearTheBestThatAsManyPosesCanBe) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const Plan few = make_plan(request_of(15, seed)), many = make_plan(request_of(40, seed));
+    EXPECT_LE(few.bound_rms_m, few.predicted.rms_m);
+    EXPECT_LT(few.predicted.rms_m, 1.07 * few.bound_rms_m);
+    EXPECT_LE(many.bound_rms_m, many.predicted.rms_m);
+    EXPECT_LT(many.predicted.rms_m, 1.03 * many.bound_rms_m);
+  }
+}
+
 TEST(Plan, SaysWhatItsPosesCannotTell) {
   PlanRequest request = request_of(16);
   request.robot.chain.tool_m = {0.0, 0.0, 0.1};  // on the axis of the last joint
@@ -147,6 +158,22 @@ TEST(Plan, GoesOnFromWhatWasMeasured) {
   EXPECT_THAT(after.assumptions, testing::Contains(testing::HasSubstr("goes on from before")));
   request.accept = 3;
   EXPECT_EQ(make_plan(request).counts[2], 3u);
+}
+
+/// Whatever no program drives to is counted and named: postures that no way within the box joins.
+TEST(Plan, NamesThePosesThatProgramsLeaveOut) {
+  PlanRequest request = request_of(10);
+  request.cell = assumed_cell(request.robot);
+  request.cell->tool_box = Eigen::AlignedBox3d(Eigen::Vector3d(0.3, -0.1, 0.4), Eigen::Vector3d(0.5, 0.1, 0.6));
+  const Plan plan = make_plan(request);
+  ASSERT_FALSE(plan.way.blocked.empty());
+  std::size_t reached = 0;
+  for (const WayStop& stop : plan.way.stops) reached += stop.pose >= 0 ? 1 : 0;
+  EXPECT_EQ(reached + plan.way.blocked.size(), plan.stops.size());
+  EXPECT_THAT(plan.warnings,
+              testing::Contains(testing::AllOf(testing::HasSubstr(std::to_string(plan.way.blocked.size()) + " of " +
+                                                                  std::to_string(plan.stops.size()) + " poses"),
+                                               testing::HasSubstr(plan.stops[plan.way.blocked.front()].id))));
 }
 
 TEST(Plan, RefusesACellWithoutRoom) {

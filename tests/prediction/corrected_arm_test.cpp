@@ -129,5 +129,18 @@ TEST(CorrectedArm, NotesWhatDependsOnMoreThanTheJoints) {
   EXPECT_THAT(code_of(listing_of(arm, robot, "title"), CodeLanguage::c), HasSubstr("// Note: " + arm.notes[0]));
 }
 
+TEST(CorrectedArm, SaysInWhichFrameItsPoseIs) {
+  RandomStream stream{635};
+  const Chain nominal = mounted_arm(stream, 3, Convention::standard_dh);
+  CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
+  robot.described = heavy(stream, nominal);
+  Algebra algebra;
+  const CorrectedArm arm = corrected_arm(algebra, robot, "");
+  EXPECT_THAT(code_of(listing_of(arm, robot, ""), CodeLanguage::text), HasSubstr("in the frame of the measurements"));
+  const std::string own = code_of(listing_of(arm, robot, "", PoseFrame::own_base), CodeLanguage::text);
+  EXPECT_THAT(own, HasSubstr("in the frame of the arm's base as described"));
+  EXPECT_THAT(own, testing::Not(HasSubstr("frame of the measurements")));
+}
+
 }  // namespace
 }  // namespace demecal

@@ -44,6 +44,13 @@ class Applied {
         << model.substr(0, place + robot.size()) << "  home_deg: [" << home_deg << "]\n"
         << model.substr(place + robot.size());
   }
+  /// As if the check of the model's data had found these.
+  void find_in_data(const std::string& kinds) {
+    std::string model = job_.text("out/model.yaml");
+    const std::size_t place = model.find("sha256: ");
+    ASSERT_NE(place, std::string::npos) << model;
+    std::ofstream(job_.path("out/model.yaml"), std::ios::binary) << model.insert(place, "findings: [" + kinds + "], ");
+  }
   std::string path(const std::string& name) const { return job_.path(name); }
   std::string text(const std::string& name) const { return job_.text(name); }
   std::string result(const std::string& program) const { return job_.text("new-" + program); }
@@ -199,6 +206,27 @@ TEST(Apply, ADeclaredHomeTellsTheConfigurationAsNearDoes) {
   EXPECT_EQ(at_home.code, 0) << at_home.err;
   EXPECT_EQ(at_home.err.find(unknown), std::string::npos) << at_home.err;
   EXPECT_EQ(applied.result("a.v2"), near);
+}
+
+TEST(Apply, SaysFirstThatTheDataOfTheModelHadFindings) {
+  Applied applied;
+  EXPECT_EQ(applied.apply("a.csv", kCsv).err.find("check of the data"), std::string::npos);
+  applied.find_in_data("wrong_contact, outlier");
+  const Ended doubtful = applied.apply("b.csv", kCsv, {"--strict"});
+  EXPECT_EQ(doubtful.code, 0) << doubtful.err;
+  const std::string first = doubtful.err.substr(0, doubtful.err.find('\n'));
+  EXPECT_NE(first.find("(wrong_contact, outlier)"), std::string::npos) << doubtful.err;
+}
+
+TEST(Apply, WarnsWhereTheDataOfTheModelContradictTheArm) {
+  Applied applied;
+  applied.find_in_data("joint_sign");
+  const Ended contradicted = applied.apply("a.csv", kCsv);
+  EXPECT_EQ(contradicted.code, 0);
+  const std::string first = contradicted.err.substr(0, contradicted.err.find('\n'));
+  EXPECT_NE(first.find("contradict the arm (joint_sign)"), std::string::npos) << contradicted.err;
+  EXPECT_EQ(applied.apply("b.csv", kCsv, {"--strict"}).code, 11);
+  EXPECT_FALSE(applied.wrote("b.csv"));
 }
 
 }  // namespace

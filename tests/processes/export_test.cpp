@@ -48,6 +48,7 @@ TEST(Export, OverwritesNeitherItsInputNorWhatItDidNotWrite) {
     return run("demecal", arguments);
   };
   const std::string drawn = job.text("data/robot.yaml");
+  EXPECT_THAT(run("demecal", {"export", robot}).out, HasSubstr("in the frame of the arm's base as described"));
   const Ended own = exported_to("data/robot.yaml", {"--force"});
   EXPECT_EQ(own.code, 10);
   EXPECT_THAT(own.err, HasSubstr("is the file that was read, which is never overwritten"));
