@@ -52,6 +52,7 @@ class DataChecker {
   DataCheck run() {
     for (Finding& finding : find_lacking_spread(data_)) add(std::move(finding));
     for (Finding& finding : find_shared_poses(data_)) add(std::move(finding));
+    if (auto payloads = find_implausible_payloads(data_)) add(std::move(*payloads));
     if (whole_.rows.empty())
       for (Finding& finding : find_small_angles(data_)) add(std::move(finding));
     if (!has_instrument(data_))

@@ -88,6 +88,9 @@ std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<Tr
 /// Joints that move by less than 2 degrees (5 mm) over the calibration poses, and measured points on a line or plane.
 std::vector<Finding> find_lacking_spread(const DataSet& data);
 
+/// Poses that carry more than the arm can.
+std::optional<Finding> find_implausible_payloads(const DataSet& data);
+
 /// Values rounded coarsely: positions, and joints whose errors do not follow position or side of a joint.
 std::vector<Finding> find_coarse_values(const DataSet& data, const Trial& trial, const TrialFit& fit);
 

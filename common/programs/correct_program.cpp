@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "data/data_set.hpp"
+#include "data/payload.hpp"
+#include "data/text.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
@@ -54,6 +56,9 @@ class Corrector {
                           const std::function<std::size_t(std::size_t)>& line_at) {
     if (!target.not_sent_to.empty()) return left(target.not_sent_to + "; it is left as it is");
     if (!unknown_frames(target, circumstances_).empty()) return refused(target);
+    if (payload_of(target) > most_payload_kg(model_.nominal))
+      return left("it would carry " + number_text(payload_of(target)) + " kg, " + above_most_payload(model_.nominal) +
+                  "; this line was not corrected; state the payload in kg");
     CorrectedTarget corrected = with_known_frames(target, visits.front(), model_for(target));
     for (std::size_t i = 1; i < visits.size() && !corrected.is_uncorrected(); ++i)
       check_posture(target, visits[i], line_at(visits[i].order), corrected);
@@ -182,10 +187,14 @@ class Corrector {
     corrected.outcome = CorrectionOutcome::uncorrected;
   }
 
+  double payload_of(const Target& target) const {
+    return target.payload_kg.value_or(circumstances_.payload_kg.value_or(0.0));
+  }
+
   Stop stop_at(const Target& target, const TargetVisit& visit, const JointVector& joints) const {
     Stop stop(joints);
     stop.approach = approach_of(target, visit.approach);
-    stop.payload_kg = target.payload_kg.value_or(circumstances_.payload_kg.value_or(0.0));
+    stop.payload_kg = payload_of(target);
     stop.temperature_celsius =
         target.temperature_celsius ? target.temperature_celsius : circumstances_.temperature_celsius;
     stop.time_s = target.time_s;
