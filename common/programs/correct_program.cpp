@@ -214,9 +214,17 @@ std::size_t line_at(std::string_view text, const Program& program, std::size_t o
   return 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
 }
 
-void note_unknown_side(const Target& target, const CorrectedTarget& corrected, UnknownSides& sides) {
+/// Whether what the side may leave, half of what depends on it, is more than the radius that the model states without
+/// it: a smaller part of the predicted error is in that figure, and needs no warning.
+bool outweighs_model(const CorrectedTarget& corrected) {
   constexpr double kWorthSaying_m = 5e-5;
-  if (corrected.unknown_side_m <= kWorthSaying_m) return;
+  if (corrected.unknown_side_m <= kWorthSaying_m) return false;
+  const double half_m = 0.5 * corrected.unknown_side_m;
+  return !corrected.error95_m || half_m > *corrected.error95_m - half_m;
+}
+
+void note_unknown_side(const Target& target, const CorrectedTarget& corrected, UnknownSides& sides) {
+  if (!outweighs_model(corrected)) return;
   sides.targets.push_back(&target);
   sides.most_m = std::max(sides.most_m, corrected.unknown_side_m);
 }
