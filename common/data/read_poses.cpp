@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "data/columns.hpp"
+#include "data/payload.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
@@ -171,11 +172,10 @@ std::vector<double> read_distances(const TableColumns& columns, const PoseRows& 
 }
 
 double read_payload(const TableColumn& column, const PoseRows& rows) {
-  constexpr double kMost_kg = 1e5, kMostUnstated_kg = 2300.0;  ///< of no robot; of the strongest that are made
   const double payload_kg = rows.number(column);
   if (payload_kg < 0.0) rows.fail(column, "must not be negative: it is a mass");
-  if (payload_kg > kMost_kg) rows.fail(column, "is more than any robot carries (100 t): is it in kg?");
-  if (payload_kg > kMostUnstated_kg && !column.unit_is_stated())
+  if (payload_kg > 1e5) rows.fail(column, "is more than any robot carries (100 t): is it in kg?");
+  if (payload_kg > kMostPayload_kg && !column.unit_is_stated())
     rows.fail(column,
               "is above 2300 kg, more than robots carry, and the heading states no unit: end the name in _g, or in _kg "
               "if it is right");

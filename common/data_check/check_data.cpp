@@ -38,13 +38,21 @@ class DataChecker {
     }
     for (std::size_t i = 0; i < data.poses.size(); ++i) {
       const MeasuredPose& pose = data.poses[i];
-      if (pose.position_m) whole_.rows.push_back({pose.joints, *pose.position_m, target_of_.at(pose.target), 0, i});
+      if (!pose.position_m) continue;
+      whole_.rows.push_back({.joints = pose.joints,
+                             .point_m = *pose.position_m,
+                             .target = target_of_.at(pose.target),
+                             .pose = i,
+                             .sides = pose.approach.value_or(ApproachSigns()),
+                             .payload_kg = pose.payload_kg.value_or(0.0),
+                             .temperature_celsius = pose.temperature_celsius.value_or(0.0)});
     }
   }
 
   DataCheck run() {
     for (Finding& finding : find_lacking_spread(data_)) add(std::move(finding));
     for (Finding& finding : find_shared_poses(data_)) add(std::move(finding));
+    if (auto payloads = find_implausible_payloads(data_)) add(std::move(*payloads));
     if (whole_.rows.empty())
       for (Finding& finding : find_small_angles(data_)) add(std::move(finding));
     if (!has_instrument(data_))
@@ -54,6 +62,8 @@ class DataChecker {
     TrialFit placed = place();
     if (auto computed = find_computed_positions(trial_, placed)) add(std::move(*computed));
     note_axes(placed);
+    if (fit_.median_m > kNotableShare * trial_.reach_m())
+      note_motion(placed, std::min(0.5 * fit_.median_m, kImplausibleShare * trial_.reach_m()));
     for (Finding& finding : find_contradictions(data_, {whole_, trial_}, placed, fit_)) add(std::move(finding));
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     note_moves();
@@ -63,7 +73,8 @@ class DataChecker {
     if (check_.verdict() == DataVerdict::contradiction) return std::move(check_);
     if (!check_.has(FindingKind::computed_positions)) {
       for (Finding& finding : find_coarse_values(data_, trial_, fit_)) add(std::move(finding));
-      for (Finding& finding : find_recording_errors(data_, trial_, fit_)) add(std::move(finding));
+      if (!check_.has(FindingKind::taken_in_motion)) note_motion(placed, 0.85 * fit_.median_m);
+      if (auto drift = find_drift_without_times(data_, trial_, fit_)) add(std::move(*drift));
     }
     check_rows();
     return std::move(check_);
@@ -98,11 +109,19 @@ class DataChecker {
 
   void note_axes(TrialFit& placed) {
     CheckedRows rows{whole_, trial_};
-    auto axes = find_wrong_axes(data_, rows, placed, fit_);
-    if (!axes) return;
+    if (auto axes = find_wrong_axes(data_, rows, placed, fit_)) go_on_with(std::move(rows), std::move(*axes));
+  }
+
+  void note_motion(TrialFit& placed, double most_m) {
+    CheckedRows rows{whole_, trial_};
+    if (auto motion = find_taken_in_motion(data_, most_m, rows, placed, fit_))
+      go_on_with(std::move(rows), std::move(*motion));
+  }
+
+  void go_on_with(CheckedRows rows, Finding finding) {
     whole_ = std::move(rows.whole);
     trial_ = std::move(rows.trial);
-    add(std::move(*axes));
+    add(std::move(finding));
   }
 
   /// Moves of the instrument among the calibration poses; the other rows get the station of their neighbours.

@@ -24,6 +24,7 @@ namespace demecal::inline data_check {
 inline constexpr double kImplausibleShare = 0.006;  ///< of the reach: more than this no real arm leaves
 inline constexpr double kManyRows = 0.15;           ///< share of rows that are no single ones
 inline constexpr double kNotableShare = 0.0008;  ///< of the reach: from here on explanations are tried, and poses named
+inline constexpr std::size_t kFewestRecorded = 20;  ///< rows that tell what recording did
 
 /// The rows of a data set for the check: all of them, and those calibration rows that explanations are tried on.
 struct CheckedRows {
@@ -87,19 +88,31 @@ std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<Tr
 /// Joints that move by less than 2 degrees (5 mm) over the calibration poses, and measured points on a line or plane.
 std::vector<Finding> find_lacking_spread(const DataSet& data);
 
+/// Poses that carry more than the arm can.
+std::optional<Finding> find_implausible_payloads(const DataSet& data);
+
 /// Values rounded coarsely: positions, and joints whose errors do not follow position or side of a joint.
 std::vector<Finding> find_coarse_values(const DataSet& data, const Trial& trial, const TrialFit& fit);
 
 /// Of each row the way that the joints came from the stop before (`direction` -1), or have from the one behind (1), in
-/// the order of measuring; none of the row at that end.
-std::vector<std::optional<JointVector>> ways_of(const DataSet& data, const Trial& trial, int direction);
+/// the order of measuring; none of the row at that end. `share`: where it is positive, the share of its own way that
+/// each of those stops lacks itself.
+std::vector<std::optional<JointVector>> ways_of(const DataSet& data, const Trial& trial, int direction,
+                                                double share = 0.0);
 
 /// The sign of a joint's way; 0 where it did not move or there is none.
 double side_of(const std::optional<JointVector>& way, int joint);
 
-/// What recording did to calibration rows, that `fit` shows where it has links: joints or points taken while the arm
-/// moved, points that wander where no times are given.
-std::vector<Finding> find_recording_errors(const DataSet& data, const Trial& trial, const TrialFit& fit);
+/// A share of every joint's way that joints or points are off by, all joints alike, since they were taken while the arm
+/// moved. Where errors are no larger than an arm's may be it explains more than lost motion of each joint, a wrong gain
+/// of each, and the way on the other side of the stop. It leaves no more than `most_m` at the median. Rows come back as
+/// the arm stood, `placed` and `fit` fitted to them.
+std::optional<Finding> find_taken_in_motion(const DataSet& data, double most_m, CheckedRows& rows, TrialFit& placed,
+                                            TrialFit& fit);
+
+/// Points that wander with the order of rows, of data without times: from first to last, linear or settling, or there
+/// and back. `fit` has links.
+std::optional<Finding> find_drift_without_times(const DataSet& data, const Trial& trial, const TrialFit& fit);
 
 /// Of data without positions: joint angles said to be in degrees that are all as small as radians are.
 std::vector<Finding> find_small_angles(const DataSet& data);

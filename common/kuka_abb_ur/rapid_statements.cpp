@@ -145,6 +145,7 @@ RapidStatements::RapidStatements(const ProgramText& text, Program& program)
     if (const std::size_t targets = targets_of_rapid_motion(word)) read_motion(end, targets);
   });
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_name(begin, end); });
+  text.for_each_word([&](std::size_t begin, std::size_t end) { read_guidance(begin, end); });
   changes_.mark(program.targets);
 }
 
@@ -163,6 +164,24 @@ void RapidStatements::read_motion(std::size_t end, std::size_t targets) {
   for (std::size_t i = first; i < destinations_.size(); ++i) {
     if (!holds_target(destinations_[i])) goes_elsewhere(destinations_[i]);
   }
+}
+
+void RapidStatements::read_guidance(std::size_t begin, std::size_t end) {
+  const std::string word = text_.word_at(begin);
+  if ((word != "corr" && word != "track") || begin == 0 || code_[begin - 1] != '\\') return;
+  const std::size_t first = code_.substr(0, begin).rfind(';') + 1;  // npos + 1: the text's begin
+  const std::size_t last = std::min(code_.find(';', begin), code_.size());
+  const std::string by(code_.substr(begin - 1, end - begin + 1));
+  for (std::size_t at = first; at < last; ++at) {
+    if (!text_.begins_word(at)) continue;
+    const std::size_t word_end = text_.word_end(at);
+    if (names_.contains(text_.word_at(at)))
+      changes_.guided(code_.substr(at, after_indices(text_, word_end) - at), begin, by);
+    at = word_end - 1;
+  }
+  for (Target& target : program_.targets)
+    if (target.begin() > first && target.begin() < last) target.not_sent_to = changes_.guided_sentence(begin, by);
+  program_.joints_lost_at.push_back(begin);
 }
 
 /// Whether the name or the numbers of a target stand there.

@@ -48,6 +48,8 @@ class RapidStatements {
  private:
   void read_motion(std::size_t end, std::size_t targets);
   void read_name(std::size_t begin, std::size_t end);
+  /// \Corr and \Track: sensors shift the motion of the statement in which they stand.
+  void read_guidance(std::size_t begin, std::size_t end);
   /// Says that a motion goes to none of the targets.
   void goes_elsewhere(const TextRange& range);
   bool holds_target(const TextRange& range) const;

@@ -49,6 +49,14 @@ void ChangedNames::recorded(std::string_view name, std::size_t offset) {
   add(name, line_of(offset) + " changes it when the program runs", true);
 }
 
+std::string ChangedNames::guided_sentence(std::size_t offset, const std::string& by) const {
+  return line_of(offset) + " moves to it with " + by + ", by which sensors shift the motion when the program runs";
+}
+
+void ChangedNames::guided(std::string_view name, std::size_t offset, const std::string& by) {
+  add(name, guided_sentence(offset, by), false);
+}
+
 void ChangedNames::used(std::string_view name, std::size_t offset) {
   add(name, line_of(offset) + " uses it otherwise than to move to it, and what becomes of it there is not followed",
       false);

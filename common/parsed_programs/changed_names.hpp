@@ -24,11 +24,15 @@ class ChangedNames {
   void changed(std::string_view name, std::size_t offset);
   /// The same, with where the arm stands when it runs: what a program that was run holds then, to be measured.
   void recorded(std::string_view name, std::size_t offset);
+  /// The statement at `offset` moves to it, shifted by what sensors say when it runs; `by`: how it states that.
+  void guided(std::string_view name, std::size_t offset, const std::string& by);
   /// The statement at `offset` hands the name on, or computes with it.
   void used(std::string_view name, std::size_t offset);
 
   /// Why the name does not hold the numbers that the text gives it; empty: it does.
   std::string why(std::string_view name) const;
+  /// What guided() says of a target.
+  std::string guided_sentence(std::size_t offset, const std::string& by) const;
   /// Says so of the targets.
   void mark(std::vector<Target>& targets) const;
 

@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "data/data_set.hpp"
+#include "data/payload.hpp"
+#include "data/text.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
@@ -54,6 +56,9 @@ class Corrector {
                           const std::function<std::size_t(std::size_t)>& line_at) {
     if (!target.not_sent_to.empty()) return left(target.not_sent_to + "; it is left as it is");
     if (!unknown_frames(target, circumstances_).empty()) return refused(target);
+    if (payload_of(target) > most_payload_kg(model_.nominal))
+      return left("it would carry " + number_text(payload_of(target)) + " kg, " + above_most_payload(model_.nominal) +
+                  "; this line was not corrected; state the payload in kg");
     CorrectedTarget corrected = with_known_frames(target, visits.front(), model_for(target));
     for (std::size_t i = 1; i < visits.size() && !corrected.is_uncorrected(); ++i)
       check_posture(target, visits[i], line_at(visits[i].order), corrected);
@@ -182,10 +187,14 @@ class Corrector {
     corrected.outcome = CorrectionOutcome::uncorrected;
   }
 
+  double payload_of(const Target& target) const {
+    return target.payload_kg.value_or(circumstances_.payload_kg.value_or(0.0));
+  }
+
   Stop stop_at(const Target& target, const TargetVisit& visit, const JointVector& joints) const {
     Stop stop(joints);
     stop.approach = approach_of(target, visit.approach);
-    stop.payload_kg = target.payload_kg.value_or(circumstances_.payload_kg.value_or(0.0));
+    stop.payload_kg = payload_of(target);
     stop.temperature_celsius =
         target.temperature_celsius ? target.temperature_celsius : circumstances_.temperature_celsius;
     stop.time_s = target.time_s;
@@ -205,9 +214,17 @@ std::size_t line_at(std::string_view text, const Program& program, std::size_t o
   return 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
 }
 
-void note_unknown_side(const Target& target, const CorrectedTarget& corrected, UnknownSides& sides) {
+/// Whether what the side may leave, half of what depends on it, is more than the radius that the model states without
+/// it: a smaller part of the predicted error is in that figure, and needs no warning.
+bool outweighs_model(const CorrectedTarget& corrected) {
   constexpr double kWorthSaying_m = 5e-5;
-  if (corrected.unknown_side_m <= kWorthSaying_m) return;
+  if (corrected.unknown_side_m <= kWorthSaying_m) return false;
+  const double half_m = 0.5 * corrected.unknown_side_m;
+  return !corrected.error95_m || half_m > *corrected.error95_m - half_m;
+}
+
+void note_unknown_side(const Target& target, const CorrectedTarget& corrected, UnknownSides& sides) {
+  if (!outweighs_model(corrected)) return;
   sides.targets.push_back(&target);
   sides.most_m = std::max(sides.most_m, corrected.unknown_side_m);
 }

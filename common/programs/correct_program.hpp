@@ -42,7 +42,8 @@ struct CorrectedProgram {
 /// another of the program's files.
 ///
 /// Where the program leaves several configurations possible (see ConfigurationFinder), and their corrections differ by
-/// more than 0.05 mm or 0.03 deg, the target is left as it is; so is one whose frame or tool is not known.
+/// more than 0.05 mm or 0.03 deg, the target is left as it is; so is one whose frame or tool is not known, or
+/// that would carry more than the arm can.
 ///
 /// Each of these is a warning: a target that is left, a target outside joint limits or the measured range, a correction
 /// larger than the model states or than arms' errors are, a direction that the calibration does not determine, no exact

@@ -60,6 +60,8 @@ class AsReader {
                           '\'' + what + "' is computed when the program runs");
     }
     statements_.note_approaches(text_, program_);
+    const std::vector<std::size_t>& stopped = statements_.stopped();
+    program_.joints_lost_at.insert(program_.joints_lost_at.end(), stopped.begin(), stopped.end());
     finish();
     statements_.way().note_routines(text_, program_);
     return std::move(program_);

@@ -79,7 +79,9 @@ void AsStatements::read_system_line(const ProgramText& text, std::size_t begin, 
 void AsStatements::read_motion(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end) {
   const std::string_view code = text.code();
   const TargetUse use{begin, word.starts_with('j') || word == "hmove" ? Motion::joints : Motion::line, {}};
-  const std::size_t first = text.skip_spaces(text.word_end(begin)), last = end_of_argument(code, first, end);
+  const std::size_t first = text.skip_spaces(text.word_end(begin)), till = find_word(text, first, end, "till");
+  const std::size_t last = std::min(end_of_argument(code, first, end), till);
+  if (till < end) stopped_.push_back(till);
   if (first >= last) return;
   std::size_t trimmed = first;
   const std::string_view argument = text.trimmed(trimmed, last);

@@ -41,6 +41,8 @@ class AsStatements {
   const std::vector<LocationLiteral>& literals() const { return literals_; }
   /// Where motions go to what is computed, and what that is.
   const std::vector<std::pair<std::size_t, std::string>>& computed() const { return computed_; }
+  /// Where TILL may stop a motion on its way.
+  const std::vector<std::size_t>& stopped() const { return stopped_; }
   /// Says where motions come near a location only, and how near.
   void note_approaches(const ProgramText& text, Program& program) const;
   /// Why the location of this key (location_key) is not what the arm is sent to; empty: it is.
@@ -83,6 +85,7 @@ class AsStatements {
   std::vector<Approach> approaches_{};
   std::vector<LocationLiteral> literals_;
   std::vector<std::pair<std::size_t, std::string>> computed_;
+  std::vector<std::size_t> stopped_;
   std::map<std::string, std::vector<TargetUse>> uses_;
   std::map<std::string, std::string> not_sent_to_;
   std::set<std::string> tools_;

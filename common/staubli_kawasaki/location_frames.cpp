@@ -6,19 +6,10 @@
 #include <string_view>
 
 #include "data/text.hpp"
+#include "staubli_kawasaki/location_names.hpp"
 
 namespace demecal::inline staubli_kawasaki {
 namespace {
-
-/// Where the word stands in [begin, end); the end where it does not.
-std::size_t find_word(const ProgramText& text, std::size_t begin, std::size_t end, std::string_view word) {
-  for (std::size_t at = begin; at < end; ++at) {
-    if (!text.begins_word(at)) continue;
-    if (text.word_at(at) == word) return at;
-    at = std::min(text.word_end(at), end) - 1;
-  }
-  return end;
-}
 
 /// Instructions behind which the arm stands where no location says.
 bool moves_untold(const std::string& word) {

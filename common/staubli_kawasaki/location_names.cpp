@@ -69,6 +69,15 @@ void note_untold_locations(const ProgramText& text, const std::map<std::string, 
   }
 }
 
+std::size_t find_word(const ProgramText& text, std::size_t begin, std::size_t end, std::string_view word) {
+  for (std::size_t at = begin; at < end; ++at) {
+    if (!text.begins_word(at)) continue;
+    if (text.word_at(at) == word) return at;
+    at = std::min(text.word_end(at), end) - 1;
+  }
+  return end;
+}
+
 std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end) {
   int depth = 0;
   for (std::size_t at = begin; at < end; ++at) {

@@ -24,6 +24,8 @@ std::vector<std::string> location_names(const ProgramText& text, std::size_t beg
 /// nothing. A computed index may be any of an array.
 void note_untold_locations(const ProgramText& text, const std::map<std::string, std::vector<TargetUse>>& uses,
                            const std::function<std::string(const std::string&)>& why, Program& program);
+/// Where the word, in small letters, stands in [begin, end); the end where it does not.
+std::size_t find_word(const ProgramText& text, std::size_t begin, std::size_t end, std::string_view word);
 /// Where the argument that begins at `begin` ends: a comma outside of parentheses, or `end`.
 std::size_t end_of_argument(std::string_view code, std::size_t begin, std::size_t end);
 

@@ -89,11 +89,13 @@ struct ZeroJump {
   TrialFit fit;
 };
 
-/// The row and joint where another zero from there on explains the rows far better than one zero does, and better than
-/// drift of all joints, linear or settling, from the first row on.
+/// The row and joint where another zero from there on explains the rows far better than one zero does, better than
+/// drift of all joints, linear or settling, from the first row on, and beyond what goes with sides of approach, payload
+/// and temperature.
 std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit);
 
-/// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, or
+/// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, and
+/// beyond drift, linear, settling or there and back, and what goes with sides of approach, payload and temperature, or
 /// two zeros of a joint do in fewer nats, and looks again; `trial` comes back with a station for every place and joints
 /// of one zero, `fit` fitted to it.
 std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit);

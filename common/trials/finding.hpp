@@ -43,6 +43,7 @@ enum class FindingKind {
   outlier,
   many_outliers,
   implausible_link,
+  implausible_payload,
   other_robot
 };
 

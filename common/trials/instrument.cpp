@@ -12,8 +12,10 @@
 
 #include "kinematics/forward.hpp"
 #include "random/distributions.hpp"
+#include "trials/drift.hpp"
 #include "trials/explanations.hpp"
 #include "trials/point_pairs.hpp"
+#include "trials/projected_columns.hpp"
 #include "trials/trial_fit.hpp"
 
 namespace demecal::inline trials {
@@ -22,9 +24,10 @@ namespace {
 constexpr std::size_t kFewestBehind = 5;  ///< rows on either side of a move: fewer could be outliers
 constexpr std::size_t kPlaces = 80;       ///< places that a move is first looked for at
 constexpr int kMostMoves = 3;
-constexpr double kCap = 6.0;         ///< deviations beyond which an error says no more
-constexpr double kLeastGain = 50.0;  ///< log likelihood that another place of the instrument must gain
-constexpr double kLeastShift = 5.0;  ///< deviations that points must jump by: drift within a run is smaller
+constexpr double kCap = 6.0;               ///< deviations beyond which an error says no more
+constexpr double kLeastGain = 50.0;        ///< log likelihood that another place of the instrument must gain
+constexpr double kLeastGainBeyond = 25.0;  ///< the same beside drift and the conditions that files state
+constexpr double kLeastShift = 5.0;        ///< deviations that points must jump by: drift within a run is smaller
 
 double capped_cost(const PointPairs& pairs, std::size_t begin, std::size_t end, const Eigen::Isometry3d& base,
                    double cap_m) {
@@ -142,6 +145,30 @@ double cost_nats(const TrialFit& fit, int numbers, const ZeroJump& jump) {
   return sum;
 }
 
+/// How points move with an instrument that stands elsewhere at the rows of a segment: six columns.
+Eigen::MatrixXd step_columns(const Trial& trial, const Segment& there) {
+  Eigen::MatrixXd columns = drift_columns(trial, {{[](double) { return 1.0; }}});
+  columns.topRows(3 * static_cast<Eigen::Index>(there.begin)).setZero();
+  columns.bottomRows(columns.rows() - 3 * static_cast<Eigen::Index>(there.end)).setZero();
+  return columns;
+}
+
+/// Log likelihood, in deviations of the better fit, that the step gains at the least beside what an instrument does
+/// that drifts, and beside what joints do by sides, payload and temperature where it is no larger than that may be.
+double gain_beyond_others(const Trial& trial, const TrialFit& fit, const Segment& there, double shift_m,
+                          double deviation_m) {
+  if (!fit.has_links()) return std::numeric_limits<double>::infinity();
+  const ProjectedColumns projected(trial, fit);
+  const Eigen::MatrixXd step = step_columns(trial, there);
+  double least = std::numeric_limits<double>::infinity();
+  for (const DriftShape& shape : drift_shapes())
+    least = std::min(least, projected.gain_beyond(step, drift_columns(trial, shape)));
+  if (shift_m < kMostByConditions * trial.reach_m())
+    least = std::min(least, projected.gain_beyond(step, condition_columns(trial, fit)));
+  const double sharper = fit.deviation_m / deviation_m;
+  return sharper * sharper * least;
+}
+
 bool is_earlier(const InstrumentMove& one, const InstrumentMove& other) {
   return one.first_row < other.first_row;
 }
@@ -177,9 +204,11 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
     // too.
     const double gained = std::min(gain(fit.error_m, both.error_m, deviation_m),
                                    gain(fit_arm_to_all(trial, fit).error_m, both.error_m, deviation_m));
-    const bool found = gained > kLeastGain * both.rows_per_pose &&
-                       move.shift_m > std::max(kLeastShift * deviation_m, kSmallestShift_m) &&
-                       move.if_changed_m < std::min(kLeastFall * move.as_given_m, kMostOverUsual * both.usual_m);
+    const bool found =
+        gained > kLeastGain * both.rows_per_pose &&
+        move.shift_m > std::max(kLeastShift * deviation_m, kSmallestShift_m) &&
+        move.if_changed_m < std::min(kLeastFall * move.as_given_m, kMostOverUsual * both.usual_m) &&
+        gain_beyond_others(trial, fit, behind, move.shift_m, deviation_m) > kLeastGainBeyond * both.rows_per_pose;
     auto jump = find_zero_jump(trial, fit);
     if (jump && (!found || cost_nats(jump->fit, 1, *jump) < cost_nats(both, 6, *jump))) {
       moves.push_back(jump->move);

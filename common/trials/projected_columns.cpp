@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
+#include <ranges>
 #include <vector>
 
 namespace demecal::inline trials {
@@ -38,6 +40,22 @@ Eigen::VectorXd ProjectedColumns::coefficients(const Eigen::MatrixXd& columns) c
   return PivotedCholesky(squares).solve(with_error(columns));
 }
 
+double ProjectedColumns::gain_beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) const {
+  constexpr double kApart = 1e-6;  // of a column's square, that no other holds
+  const auto gain_of = [&](const Eigen::MatrixXd& some) {
+    Eigen::MatrixXd squares = with_itself(some);
+    const Eigen::VectorXd sizes = squares.diagonal().cwiseMax(1e-12).cwiseSqrt().cwiseInverse();
+    squares = sizes.asDiagonal() * squares * sizes.asDiagonal();
+    squares.diagonal().array() += kApart;
+    const Eigen::VectorXd together = sizes.cwiseProduct(Eigen::VectorXd(with_error(some)));
+    return 0.5 * together.dot(PivotedCholesky(squares).solve(together));
+  };
+  if (others.cols() == 0) return gain_of(columns);
+  Eigen::MatrixXd both(columns.rows(), others.cols() + columns.cols());
+  both << others, columns;
+  return gain_of(both) - gain_of(others);
+}
+
 double ProjectedColumns::gain(const Eigen::MatrixXd& columns) const {
   return 0.5 * with_error(columns).dot(coefficients(columns));
 }
@@ -52,6 +70,26 @@ Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint)
         (predicted_point(fit, row) - predicted_point(fit, trial.rows[i])) / kDerivativeStep;
   }
   return column;
+}
+
+Eigen::MatrixXd condition_columns(const Trial& trial, const TrialFit& fit) {
+  const std::vector<TrialRow>& rows = trial.rows;
+  std::vector<Eigen::MatrixXd> parts;
+  if (std::ranges::any_of(rows, [](const TrialRow& row) { return row.sides.size() > 0; }))
+    parts.push_back(joint_columns(trial, fit, [&rows](std::size_t row, int joint) {
+      return rows[row].sides.size() > 0 ? rows[row].sides[joint] : 0.0;
+    }));
+  for (const auto condition : {&TrialRow::payload_kg, &TrialRow::temperature_celsius}) {
+    const auto [least, most] = std::ranges::minmax(rows | std::views::transform(condition));
+    if (most > least)
+      parts.push_back(joint_columns(trial, fit, [&, from = least, span = most - least](std::size_t row, int) {
+        return (rows[row].*condition - from) / span;
+      }));
+  }
+  Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(rows.size()), std::ssize(parts) * trial.chain.size());
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    columns.middleCols(static_cast<Eigen::Index>(i) * trial.chain.size(), trial.chain.size()) = parts[i];
+  return columns;
 }
 
 }  // namespace demecal::inline trials

@@ -23,6 +23,8 @@ class ProjectedColumns {
   Eigen::MatrixXd with_itself(const Eigen::MatrixXd& columns) const;
   /// Log likelihood, in nats, that the columns gain together.
   double gain(const Eigen::MatrixXd& columns) const;
+  /// What `columns` gain beside `others`, from which they may hardly differ.
+  double gain_beyond(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& others) const;
   /// The columns' least-squares coefficients.
   Eigen::VectorXd coefficients(const Eigen::MatrixXd& columns) const;
 
@@ -47,6 +49,14 @@ Eigen::MatrixXd joint_columns(const Trial& trial, const TrialFit& fit, const Fac
   }
   return columns;
 }
+
+/// How points move with errors of joints that differ by what the file states of a row: each joint's column times its
+/// side of approach, the payload and the temperature, as far as rows differ in them. Sides that change in the course of
+/// a measurement show lost motion as the zero of a joint, and payloads show elasticity so.
+Eigen::MatrixXd condition_columns(const Trial& trial, const TrialFit& fit);
+
+/// Share of a turn (rad) or of the reach, to which an arm may err by such conditions.
+inline constexpr double kMostByConditions = 0.01;
 
 /// Nats that something systematic must gain, for each row of a pose.
 inline constexpr double kNotableGain = 20.0;

@@ -17,6 +17,8 @@ struct TrialRow {
   int target = 0;           ///< which of the trial's tools
   int station = 0;          ///< which of the trial's places of the instrument
   std::size_t pose = 0;     ///< in the data set
+  JointVector sides{};      ///< of approach, as stated: -1, 0 or 1 of each joint; empty: not stated
+  double payload_kg = 0.0, temperature_celsius = 0.0;  ///< as stated, otherwise 0
 };
 
 /// An arm and what was measured of it, as somebody supposes that they are.

@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -15,6 +17,7 @@
 #include "fitting/fit.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "long_measurements.hpp"
 #include "mistaken_case.hpp"
 #include "random/random_stream.hpp"
 
@@ -262,6 +265,30 @@ TEST(CheckFitted, SaysThatALaterMeasurementStandsInAnotherFrame) {
   for (MeasuredPose& pose : data.poses) *pose.position_m += Eigen::Vector3d(0.02, 0.01, -0.015);
   check_fitted(data, fit.robot, after);
   EXPECT_TRUE(after.has(FindingKind::set_in_other_frame)) << sentences_of(after);
+}
+
+TEST(CheckData, NamesPayloadsThatNoArmCarries) {
+  DataSet data = long_measurements(1).front();
+  for (MeasuredPose& pose : data.poses) pose.payload_kg = 8.0;
+  data.robot.masses.clear();
+  data.poses[7].payload_kg = 2000.0;
+  EXPECT_FALSE(check_data(data).has(FindingKind::implausible_payload));
+  data.poses[7].payload_kg = 5000.0;
+  const auto told = [&] {
+    const DataCheck check = check_data(data);
+    const auto found = std::ranges::find(check.findings, FindingKind::implausible_payload, &Finding::kind);
+    EXPECT_EQ(check.verdict(), DataVerdict::suspicious);
+    return found == check.findings.end() ? Finding() : *found;
+  };
+  EXPECT_THAT(told().sentence, HasSubstr("up to 5000 kg"));
+  EXPECT_THAT(told().sentence, HasSubstr("more than any robot carries (2300 kg)"));
+  EXPECT_THAT(told().poses, ElementsAre(data.poses[7].pose_id));
+  // An arm of 60 kg carries no 2000 kg.
+  data.poses[7].payload_kg = 2000.0;
+  data.robot.masses.assign(static_cast<std::size_t>(data.robot.chain.size()), {.mass_kg = 10.0});
+  EXPECT_THAT(told().sentence, HasSubstr("more than all links of this arm weigh (60 kg)"));
+  data.robot.masses.back().mass_kg = 0.0;  // not known
+  EXPECT_FALSE(check_data(data).has(FindingKind::implausible_payload));
 }
 
 }  // namespace

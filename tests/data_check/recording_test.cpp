@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data_check/check_data.hpp"
@@ -98,6 +99,40 @@ TEST(Recording, WhatWasTakenWhileTheArmMovedIsNamed) {
   }
 }
 
+/// Each pose once.
+DataSet without_repeats(DataSet data) {
+  const auto is_repeat = [](const MeasuredPose& one, const MeasuredPose& other) { return one.joints == other.joints; };
+  data.poses.erase(std::ranges::unique(data.poses, is_repeat).begin(), data.poses.end());
+  return data;
+}
+
+TEST(Recording, WhatWasTakenFarFromTheStopIsNotAnotherRobots) {
+  for (const DataSet& repeated : long_measurements(13)) {
+    const DataSet right = without_repeats(repeated);
+    for (const double share : {0.02, 0.13}) {
+      DataSet early = right, left = right, points = right;
+      for (std::size_t i = 0; i < right.poses.size(); ++i) {
+        const JointVector& there = right.poses[i].joints;
+        if (i > 0) early.poses[i].joints -= share * (there - right.poses[i - 1].joints);
+        if (i + 1 < right.poses.size()) left.poses[i].joints += share * (right.poses[i + 1].joints - there);
+        if (i > 0) points.poses[i].joints += share / (1.0 - share) * (there - points.poses[i - 1].joints);
+      }
+      const std::string how_much = share < 0.1 ? "2 % of every" : "13 % of every";
+      for (const auto& [data, what] : {std::pair(early, "Joints were read before the arm stood"),
+                                       std::pair(left, "Joints were read after the arm had left"),
+                                       std::pair(points, "Points were measured before the arm stood")}) {
+        const DataCheck check = check_data(data);
+        const auto told = sentences(check, FindingKind::taken_in_motion);
+        ASSERT_EQ(told.size(), 1U) << right.robot.name << " " << what << " " << share
+                                   << (check.findings.empty() ? "" : check.findings.front().sentence);
+        EXPECT_TRUE(told.front().starts_with(what)) << told.front();
+        EXPECT_NE(told.front().find(how_much), std::string::npos) << told.front();
+        EXPECT_NE(check.verdict(), DataVerdict::contradiction) << right.robot.name << " " << what << " " << share;
+      }
+    }
+  }
+}
+
 TEST(Recording, StepsOfHalvesAndFifthsAreToldAndRoundPlacesOfOneJointAreNot) {
   for (const DataSet& right : long_measurements(10)) {
     for (const double step_deg : {0.5, 0.2}) {
@@ -157,6 +192,25 @@ TEST(Recording, DriftIsNamedWhereNoTimesAreGiven) {
     EXPECT_TRUE(check_data(drifting).has(FindingKind::drift_without_times)) << right.robot.name;
     for (std::size_t i = 0; i < drifting.poses.size(); ++i) drifting.poses[i].time_s = 10.0 * static_cast<double>(i);
     EXPECT_FALSE(check_data(drifting).has(FindingKind::drift_without_times)) << right.robot.name;
+  }
+}
+
+TEST(Recording, DriftThereAndBackIsNamedAndNoMoveOfTheInstrument) {
+  for (const DataSet& right : long_measurements(14)) {
+    for (const int periods : {1, 2}) {
+      DataSet drifting = right;
+      const auto n = static_cast<double>(drifting.poses.size());
+      for (std::size_t i = 0; i < drifting.poses.size(); ++i)
+        *drifting.poses[i].position_m +=
+            Eigen::Vector3d(1e-3, 4e-4, 0.0) * std::sin(kTurn_rad * periods * static_cast<double>(i) / n);
+      const auto told = sentences(check_data(drifting), FindingKind::drift_without_times);
+      ASSERT_EQ(told.size(), 1U) << right.robot.name << " " << periods;
+      EXPECT_NE(told.front().find("there and back"), std::string::npos) << told.front();
+      EXPECT_FALSE(check_data(drifting).has(FindingKind::instrument_moved)) << right.robot.name << " " << periods;
+      for (std::size_t i = 0; i < drifting.poses.size(); ++i) drifting.poses[i].time_s = 10.0 * static_cast<double>(i);
+      EXPECT_FALSE(check_data(drifting).has(FindingKind::drift_without_times)) << right.robot.name;
+      EXPECT_FALSE(check_data(drifting).has(FindingKind::instrument_moved)) << right.robot.name << " " << periods;
+    }
   }
 }
 

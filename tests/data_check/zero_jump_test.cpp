@@ -9,6 +9,7 @@
 #include "data_check/check_data.hpp"
 #include "kinematics/units.hpp"
 #include "long_measurements.hpp"
+#include "random/random_stream.hpp"
 
 namespace demecal {
 namespace {
@@ -62,6 +63,46 @@ TEST(ZeroJump, DriftOfAJointIsNone) {
       for (std::size_t i = 0; i < data.poses.size(); ++i)
         data.poses[i].joints[1] += radians(0.05) * -std::expm1(-static_cast<double>(i) / n / settling) / whole;
       EXPECT_FALSE(check_data(data).has(FindingKind::joint_zero_changed)) << data.robot.name << " " << settling;
+    }
+  }
+}
+
+/// The poses of the first half, and the same once more.
+DataSet measured_twice(const DataSet& right) {
+  DataSet twice = right;
+  const std::size_t half = right.poses.size() / 2;
+  twice.poses.resize(2 * half);
+  RandomStream random({5});
+  for (std::size_t i = half; i < twice.poses.size(); ++i) {
+    twice.poses[i] = right.poses[i - half];
+    twice.poses[i].line = right.poses[i].line;
+    twice.poses[i].pose_id = right.poses[i].pose_id;
+    for (double& coordinate : *twice.poses[i].position_m) coordinate += 3e-5 * random.normal();
+  }
+  return twice;
+}
+
+TEST(ZeroJump, WhatChangesWithTheSideOfApproachOrThePayloadIsNone) {
+  for (const DataSet& right : long_measurements(15)) {
+    const DataSet twice = measured_twice(right);
+    const std::size_t half = twice.poses.size() / 2;
+    for (const bool by_side : {true, false}) {
+      DataSet data = twice;
+      for (std::size_t i = 0; i < data.poses.size(); ++i) {
+        MeasuredPose& pose = data.poses[i];
+        const double side = i < half ? 1.0 : -1.0;
+        if (by_side) pose.approach = ApproachSigns::Constant(pose.joints.size(), side);
+        if (!by_side) pose.payload_kg = i < half ? 10.0 : 0.0;
+        pose.joints[1] += 4e-4 * side;
+        pose.joints[2] += 4e-4 * side;
+      }
+      const DataCheck check = check_data(data);
+      const std::string of = data.robot.name + (by_side ? ", sides\n" : ", payload\n") + told(check);
+      EXPECT_FALSE(check.has(FindingKind::joint_zero_changed)) << of;
+      EXPECT_FALSE(check.has(FindingKind::instrument_moved)) << of;
+      DataSet jumped = data;
+      for (std::size_t i = 3 * half / 2; i < jumped.poses.size(); ++i) jumped.poses[i].joints[1] += radians(0.2);
+      EXPECT_TRUE(check_data(jumped).has(FindingKind::joint_zero_changed)) << of;
     }
   }
 }

@@ -258,5 +258,17 @@ TEST(UntoldPlaces, AreThoseOfNamesThatStandInTwoFiles) {
   EXPECT_TRUE(ends_in_line(program, source.text(), 1));
 }
 
+TEST(UntoldPlaces, AreWhereAConditionMayStopAMotionOfAs) {
+  const std::string as = ".PROGRAM t()\n JMOVE p\n";
+  const auto rest = std::string("\n LMOVE p\n.END\n.TRANS\np 1 2 3 4 5 6\n.END\n");
+  const auto program_with = [&](const std::string& motion) {
+    return read_program(WrittenIn::kawasaki_as, as + motion + rest, "p", wrist_arm());
+  };
+  const Program stopped = program_with(" XMOVE p TILL 1001"), straight = program_with(" XMOVE p");
+  EXPECT_TRUE(ends_in_line(stopped, as + " XMOVE p TILL 1001" + rest, 3));
+  EXPECT_FALSE(ends_in_line(straight, as + " XMOVE p" + rest, 3));
+  EXPECT_THAT(said_in_line(stopped, 3), IsEmpty());
+}
+
 }  // namespace
 }  // namespace demecal

@@ -137,6 +137,20 @@ TEST(FanucLs, LeavesPositionsThatTheProgramChanges) {
     EXPECT_THAT(of(change), AllOf(StartsWith("left:"), HasSubstr(kChanged))) << change;
 }
 
+TEST(KawasakiAs, CorrectsLocationsOnTheWayToWhichAConditionMayStop) {
+  const auto of_as = [](const std::string& motions) {
+    return judged(WrittenIn::kawasaki_as,
+                  ".PROGRAM t()\n" + motions + ".END\n.TRANS\n" +
+                      pose_line(WrittenIn::kawasaki_as, tool_pose(), usual_joints(), 1, 4) + "\n.END\n.JOINTS\n" +
+                      joints_line(WrittenIn::kawasaki_as, usual_joints(), 1, 4) + "\n.END\n",
+                  "p1");
+  };
+  const std::string before = "  JMOVE #p1\n", straight = of_as(before + "  XMOVE p1\n");
+  EXPECT_THAT(straight, StartsWith("corrected:"));
+  for (const char* stopped : {"  XMOVE p1 TILL 1001\n", "  XMOVE p1 till -1001 \n", "  LMOVE p1 TILL sig1\n"})
+    EXPECT_EQ(of_as(before + stopped), straight) << stopped;
+}
+
 TEST(KawasakiAs, LeavesLocationsThatTheProgramChanges) {
   const auto of = [](const std::string& statement) {
     return judged(WrittenIn::kawasaki_as,

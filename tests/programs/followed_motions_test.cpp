@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <map>
 
 #include "named_motions.hpp"
@@ -172,6 +174,26 @@ TEST(Approach, IsSaidOnceWhereItIsNotKnownAndMatters) {
   for (const InLanguages& programs : {kLoopFromOneSide, kBranchesFromOneSide})
     EXPECT_THAT(said_of_sides(programs),
                 ::testing::Each(AllOf(HasSubstr(" is not told"), ::testing::Not(HasSubstr("depends on the way")))));
+}
+
+TEST(Approach, IsNotSaidWhereTheModelItselfIsLessSure) {
+  CommandModel model = lost_motion_model();
+  model.posterior.emplace();
+  model.posterior->ids = {{.kind = ParameterId::Kind::link, .index = 1, .link = LinkParameter::theta}};
+  model.posterior->factor = Eigen::MatrixXd::Constant(1, 1, 1e-7);
+  model.interval.emplace();
+  model.interval->quantile = 1.6;
+  for (const bool sure : {true, false}) {
+    model.interval->model_error_m = sure ? 1e-5 : 3e-3;
+    const CorrectedProgram corrected = corrected_motions(WrittenIn::krl, "@LOW\n@MIDDLE\n", model);
+    const CorrectedTarget& first = corrected.targets.at(index_of(corrected, "LOW"));
+    EXPECT_GT(first.unknown_side_m, 1e-4);
+    EXPECT_GT(first.error95_m.value_or(0.0), 0.5 * first.unknown_side_m) << "its radius says so in any case";
+    const auto is_said = [](const Remark& warning) {
+      return warning.sentence.find("line 2 is not told") != std::string::npos;
+    };
+    EXPECT_EQ(std::ranges::any_of(corrected.warnings, is_said), sure);
+  }
 }
 
 }  // namespace

@@ -56,6 +56,22 @@ TEST(Concerns, NameTheJointBeyondTheCalibratedRange) {
   EXPECT_EQ(warning_text(corrected, corrected.warnings[0]).substr(0, 11), "p.script:1:");
 }
 
+TEST(Concerns, LeaveLinesThatWouldCarryWhatNoArmCarries) {
+  CommandModel model = wave_model(2e-3);
+  model.nominal.masses.clear();
+  const std::string text = joints_line(WrittenIn::urscript, joints_with(0.5, 0.2), 1, 9);
+  const auto corrected = [&](double payload_kg) {
+    const Program program = read_program(WrittenIn::urscript, text, "p.script", model.nominal.chain);
+    return correct_program(text, program, model, {.payload_kg = payload_kg});
+  };
+  const CorrectedProgram far = corrected(5000.0);
+  EXPECT_EQ(far.text, text);
+  ASSERT_EQ(far.warnings.size(), 1u);
+  EXPECT_THAT(far.warnings[0].sentence, HasSubstr("it would carry 5000 kg, more than any robot carries (2300 kg)"));
+  EXPECT_NE(corrected(2000.0).text, text);
+  EXPECT_THAT(corrected(2000.0).warnings, IsEmpty());
+}
+
 TEST(Concerns, SayWhatEffectsDependOnAndNobodyStates) {
   CommandModel model = wave_model(2e-3);
   model.robot.effects = {
