@@ -91,6 +91,39 @@ TEST(Diagnose, IsTheSameEveryTimeAndDoesNotReadTheTruth) {
   EXPECT_EQ(job.text("with/model.yaml"), job.text("without/model.yaml"));
 }
 
+/// The events of a recorded run that have this word.
+std::vector<Json> recorded_events(const SmallJob& job, const std::string& out, const std::string& word) {
+  std::vector<Json> events;
+  std::istringstream lines(job.text(out + "/events.jsonl"));
+  for (std::string line; std::getline(lines, line);) {
+    Json event = Json::parse(line);
+    if (event.at("event") == word) events.push_back(std::move(event));
+  }
+  return events;
+}
+
+TEST(Diagnose, LeavesARecordOfItsRoundsCausesAndFigures) {
+  const SmallJob job(20, 2, kBacklash);
+  ASSERT_EQ(run("demecal", diagnose(job, "out", {"--declare", "registration,joint_corrections"})).code, 0);
+  const Json report = report_of(job, "out");
+  EXPECT_GE(recorded_events(job, "out", "round").size(), report["rounds"].size());
+  EXPECT_EQ(recorded_events(job, "out", "cause").size(), report["causes"].size());
+  ASSERT_FALSE(report["causes"].empty());
+  const std::vector<Json> stages = recorded_events(job, "out", "stage"),
+                          figures = recorded_events(job, "out", "final_figures");
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_NEAR(figures[0]["accept_after_mm"], report["error_mm"]["after"]["accept"]["rms"], 1e-9);
+  ASSERT_FALSE(stages.empty());
+  EXPECT_EQ(stages.back()["stage"], "finished");
+  const Ended shown = run("demecal", {"monitor", "--replay", job.path("out"), "--once"});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_NE(shown.out.find(report["causes"][0]["name"]), std::string::npos) << shown.out;
+
+  const Ended again = run("demecal", diagnose(job, "out", {"--prior", job.path("out/model.yaml")}));
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(recorded_events(job, "out", "final_figures").size(), 1U);
+}
+
 /// The scenario of the job measured from another place; returns the data set.
 std::string second_station(const SmallJob& job) {
   std::string scenario = job.text("scenario.yaml");
