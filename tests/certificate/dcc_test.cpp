@@ -76,6 +76,14 @@ TEST_F(Schema, RefusesWhatIsNoCertificate) {
   EXPECT_NE(complaint(xml), "");
 }
 
+TEST_F(Schema, AcceptsApproachesOfSomePosesOrAll) {
+  Certificate certificate = made_up_certificate();
+  EXPECT_EQ(dcc_xml(certificate).find("approached"), std::string::npos);
+  certificate.poses[1].approach = "+-0+-+";
+  EXPECT_EQ(complaint(dcc_xml(certificate)), "");
+  EXPECT_NE(dcc_xml(certificate).find("- +-0+-+ - "), std::string::npos);
+}
+
 TEST(DigitalCertificate, HoldsTheFigures) {
   const std::string xml = dcc_xml(made_up_certificate());
   for (const char* const text : {"<si:value>0.071</si:value>", "<si:value>0.187</si:value>", "\\milli\\metre",
