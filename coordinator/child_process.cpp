@@ -83,29 +83,8 @@ std::optional<int> ChildProcess::exit_code() {
 
 namespace {
 
-constexpr std::array<const char*, 4> kPrinters{"weasyprint", "chromium", "chromium-browser", "google-chrome"};
 constexpr std::chrono::seconds kLongestWait{60};
 constexpr std::chrono::milliseconds kExitPollInterval{20};
-
-/// A folder of its own under the temporary one; removed with all that a browser left in it.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "demecal-print-XXXXXX").string();
-    if (::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-
-  const std::string& path() const { return path_; }
-
- private:
-  std::string path_;
-};
 
 std::vector<std::string> command_line(const std::string& printer, const std::string& page, const std::string& scratch,
                                       const std::string& pdf) {
@@ -121,7 +100,18 @@ std::vector<std::string> command_line(const std::string& printer, const std::str
   return words;
 }
 
-/// Runs it in a group of its own, unheard; whether it ended well in time.
+}  // namespace
+
+ScratchFolder::ScratchFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "demecal-scratch-XXXXXX").string();
+  if (::mkdtemp(name.data()) != nullptr) path_ = name;
+}
+
+ScratchFolder::~ScratchFolder() {
+  std::error_code ignored;
+  if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
+}
+
 bool runs_well(std::vector<std::string> words) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
@@ -150,11 +140,9 @@ bool runs_well(std::vector<std::string> words) {
   return ended == child && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-}  // namespace
-
-std::optional<std::string> find_printer() {
+std::optional<std::string> find_program(const std::vector<std::string>& names) {
   const char* const path = std::getenv("PATH");
-  for (const char* const name : kPrinters) {
+  for (const std::string& name : names) {
     std::istringstream folders(path == nullptr ? "" : path);
     for (std::string folder; std::getline(folders, folder, ':');) {
       const std::string file = (folder.empty() ? "." : folder) + "/" + name;
@@ -162,6 +150,10 @@ std::optional<std::string> find_printer() {
     }
   }
   return std::nullopt;
+}
+
+std::optional<std::string> find_printer() {
+  return find_program({"weasyprint", "chromium", "chromium-browser", "google-chrome"});
 }
 
 std::optional<std::string> printed(const std::string& printer, const std::string& page_file) {

@@ -1,5 +1,5 @@
-// A program that runs in a folder, with what it says going to a file; and pages as PDF, by a printer that happens to be
-// installed: weasyprint or a browser without a window.
+// A program that runs in a folder, with what it says going to a file; programs that happen to be installed, run
+// unheard; and pages as PDF by one of them: weasyprint or a browser without a window.
 #pragma once
 
 #include <sys/types.h>
@@ -30,6 +30,27 @@ class ChildProcess {
   bool is_interrupted_ = false;
   std::optional<int> exit_code_;
 };
+
+/// A folder of its own under the temporary one, its owner's alone; removed with all that was left in it.
+class ScratchFolder {
+ public:
+  ScratchFolder();
+  ~ScratchFolder();
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  /// Empty where it could not be made.
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// The path of the first of these programs that is in PATH; nothing where there is none.
+std::optional<std::string> find_program(const std::vector<std::string>& names);
+
+/// Runs the program, its path first, in a group of its own, unheard; whether it ended well within a minute.
+bool runs_well(std::vector<std::string> words);
 
 /// The path of a program of PATH that can print pages; nothing where there is none.
 std::optional<std::string> find_printer();

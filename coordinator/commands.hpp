@@ -11,6 +11,7 @@
 
 #include "calibration/job.hpp"
 #include "closed_calibration/calibrated_model.hpp"
+#include "coordinator/workers.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/stations.hpp"
@@ -120,6 +121,7 @@ struct PriorRun {
   std::string prior_file, out;
   Job job;
   bool declared_stated = false;  ///< otherwise what is declared is the prior's
+  WorkerArguments workers;       ///< of which none is started: they say where watchers are
   bool json = false, quiet = false, force = false;
 };
 

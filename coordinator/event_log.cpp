@@ -19,6 +19,7 @@
 #include "evolution/archipelago.hpp"
 #include "monitor/paced_events.hpp"
 #include "protocol/stages.hpp"
+#include "report/figures.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "yaml/files.hpp"
@@ -26,7 +27,7 @@
 namespace demecal {
 namespace {
 
-using Stage = LoopNews::Stage;
+using NewsStage = LoopNews::Stage;
 using EventClock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kReporterTimeout{300};
@@ -64,6 +65,14 @@ CauseFound cause_found(const CauseEntry& entry, std::uint64_t calibration, std::
   found.share_of_error = entry.share_of_error.value_or(std::numeric_limits<double>::quiet_NaN());
   found.advice = entry.advice;
   return found;
+}
+
+/// The figures that the calibration is judged by.
+std::string finished_with(const Report& report) {
+  const std::optional<Improvement> figures = improvement(error_stages(report));
+  if (!figures || !figures->before.mean_mm || !figures->after.mean_mm) return "finished";
+  return fmt::format("finished: mean tool error {:.3f} -> {:.3f} mm on {} poses", *figures->before.mean_mm,
+                     *figures->after.mean_mm, figures->set.name);
 }
 
 /// What a file holds that is gone on with.
@@ -130,12 +139,12 @@ EventLog::EventLog(const std::string& folder, bool resume, std::string job, std:
     : file_(folder + "/" + kEventFile, resume), reporter_(std::move(reporter)) {
   stage_.calibration = new_calibration();
   stage_.job = std::move(job);
-  publish_stage(Stage::preparing, "fitting what is declared");
+  publish_stage(NewsStage::preparing, "fitting what is declared");
 }
 
 EventLog::~EventLog() {
   try {
-    if (!is_over(stage_.stage)) finish(Stage::failed, "failed");
+    if (!is_over(stage_.stage)) finish(NewsStage::failed, "failed");
   } catch (const std::exception&) {
     // Whoever waits for it learns from its participant's end.
   }
@@ -145,11 +154,11 @@ void EventLog::on_run_begins(const CalibrationData& data, const std::vector<Prog
   stage_.run = data.run;
   of_sets_ = data.breeds == Breeds::sets;
   if (of_sets_) {
-    publish_stage(Stage::evolving, "closing the loop: evolving explanations");
+    publish_stage(NewsStage::evolving, "closing the loop: evolving explanations");
   } else {
     ++evolutions_;
-    publish_stage(Stage::evolving, evolutions_ == 1 ? "evolving the joint corrections"
-                                                    : fmt::format("closing the loop: evolution {}", evolutions_));
+    publish_stage(NewsStage::evolving, evolutions_ == 1 ? "evolving the joint corrections"
+                                                        : fmt::format("closing the loop: evolution {}", evolutions_));
   }
   file_.note(data);
   reached_.clear();
@@ -170,7 +179,7 @@ void EventLog::on_run_ends(RunEnd end) {
   file_.note(Control{stage_.run, state, stage_.job});
   for (const auto& [island, progress] : reached_) reporter_->publish(progress);
   const bool goes_on = end == RunEnd::finished || (of_sets_ && end == RunEnd::no_worker);
-  if (goes_on) publish_stage(Stage::closing, "closing the loop");
+  if (goes_on) publish_stage(NewsStage::closing, "closing the loop");
 }
 
 void EventLog::on_workers_end() {
@@ -218,6 +227,12 @@ void EventLog::tell_of(const Report& report) {
   figures.accept_before_m = metres_from_mm(report.before.accept.rms_mm);
   figures.accept_after_m = metres_from_mm(report.after.accept.rms_mm);
   publish(figures);
+}
+
+void EventLog::finish(const Report& report, bool interrupted) {
+  tell_of(report);
+  finish(interrupted ? NewsStage::interrupted : NewsStage::finished,
+         interrupted ? "interrupted" : finished_with(report));
 }
 
 void EventLog::finish(LoopNews::Stage stage, const std::string& text) {

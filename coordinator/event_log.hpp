@@ -1,5 +1,5 @@
-// What people may want to know of a calibration while it goes on: published to watchers, and recorded in events.jsonl
-// for `demecal monitor --replay`.
+// What people may want to know of a calibration or diagnosis while it goes on: published to watchers, and recorded in
+// events.jsonl for `demecal monitor --replay`.
 #pragma once
 
 #include <chrono>
@@ -63,6 +63,8 @@ class EventLog final : public CalibrationObserver {
   void on_round(const Round& round, const Robot& described) override;
   /// What was found, before the last stage.
   void tell_of(const Report& report);
+  /// The same, and that the calibration is over: finished, with the figures it is judged by, or interrupted.
+  void finish(const Report& report, bool interrupted);
   /// The last stage, with what is to be said of it.
   void finish(LoopNews::Stage stage, const std::string& text);
 

@@ -124,6 +124,7 @@ std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const D
     pose.before_mm = i < before.size() ? if_finite(millimetres(before[i].accuracy_m)) : std::nullopt;
     pose.after_mm = if_finite(millimetres(after[i].accuracy_m));
     pose.beyond = after[i].accuracy_m > tolerance_m;
+    pose.approach = after[i].approach;
     if (model.posterior && model.interval) {
       pose.uncertainty_mm = if_finite(millimetres(
           radius95_m(*model.interval, *model.posterior, arms.after, data, data.poses[after[i].rows.front()],

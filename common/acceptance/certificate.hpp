@@ -42,6 +42,7 @@ struct CertifiedPose {
   std::size_t measurements = 0;
   std::optional<double> before_mm{}, after_mm{}, uncertainty_mm{};  ///< AP before and after; radius of 95 % at the pose
   bool beyond = false;                                              ///< the tolerance
+  std::string approach{};                                           ///< as of AttainedPose
 };
 
 /// What the picture shows, in the frame of the measurements, m.

@@ -23,7 +23,8 @@ void fields(auto& visit, Like<Characteristic> auto& one) {
 
 void fields(auto& visit, Like<CertifiedPose> auto& pose) {
   visit("id", pose.id, "target", pose.target, "measurements", pose.measurements, "before_mm", pose.before_mm,
-        "after_mm", pose.after_mm, "interval95_mm", pose.uncertainty_mm, "beyond", pose.beyond);
+        "after_mm", pose.after_mm, "interval95_mm", pose.uncertainty_mm, "beyond", pose.beyond, "approach",
+        pose.approach);
 }
 
 namespace {

@@ -217,9 +217,9 @@ std::vector<AttainedPose> attained_poses(const DataSet& data, std::span<const st
   for (const std::size_t row : rows) {
     const MeasuredPose& measured = data.poses[row];
     if (!std::isfinite(tool_error_m(robot, data, measured))) continue;
-    const auto [place, is_new] =
-        places.try_emplace({measured.pose_id, measured.target, approach_text(measured)}, poses.size());
-    if (is_new) poses.push_back({.id = measured.pose_id, .target = measured.target, .rows = {}});
+    const std::string approach = approach_text(measured);
+    const auto [place, is_new] = places.try_emplace({measured.pose_id, measured.target, approach}, poses.size());
+    if (is_new) poses.push_back({.id = measured.pose_id, .target = measured.target, .approach = approach, .rows = {}});
     poses[place->second].rows.push_back(row);
   }
   for (AttainedPose& pose : poses) evaluate(data, robot, pose);

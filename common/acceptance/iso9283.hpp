@@ -16,7 +16,8 @@ namespace demecal::inline acceptance {
 /// The repeats of one pose, approached from the same side.
 struct AttainedPose {
   std::string id, target;
-  std::vector<std::size_t> rows;                          ///< of the data set
+  std::string approach{};         ///< the side each joint came from, "+-0" of three joints; empty: not recorded
+  std::vector<std::size_t> rows;  ///< of the data set
   Eigen::Vector3d attained_m = Eigen::Vector3d::Zero();   ///< the barycentre of the measured positions
   Eigen::Vector3d commanded_m = Eigen::Vector3d::Zero();  ///< where the model takes the arm to be sent
   double accuracy_m = 0.0;                                ///< AP (7.2.1): the distance of the two

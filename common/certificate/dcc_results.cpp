@@ -150,6 +150,14 @@ void DccResults::poses() {
     named("dcc:name", "poses");
     xml_.leaf("dcc:charsXMLList", names);
   });
+  if (std::ranges::any_of(certificate_.poses, [](const CertifiedPose& pose) { return !pose.approach.empty(); })) {
+    std::string sides;
+    for (const CertifiedPose& pose : certificate_.poses) sides += (pose.approach.empty() ? "-" : pose.approach) + " ";
+    xml_.element("dcc:quantity", [&] {
+      named("dcc:name", "side that each joint was approached from");
+      xml_.leaf("dcc:charsXMLList", sides);
+    });
+  }
   const std::string one = certificate_.words.of_one == "AP" ? "pose accuracy AP" : certificate_.words.of_one;
   list_quantity(one + " before calibration", &CertifiedPose::before_mm, false);
   list_quantity(one + " after calibration, with the radius that holds 95 % of errors there", &CertifiedPose::after_mm,

@@ -20,4 +20,8 @@ std::string volume_picture(const CertifiedView& view, double tolerance_m);
 /// nobody stated is ZZ (ISO 3166 leaves it to users), and a date that nobody stated is the document's.
 std::string dcc_xml(const Certificate& certificate);
 
+/// The document with a place at its end for a signature by an RSA key (SHA-256) over all of it, which a signer fills in
+/// with the certificate of the key.
+std::string with_empty_signature(std::string xml);
+
 }  // namespace demecal::inline certificate

@@ -171,13 +171,19 @@ std::string conditions_section(const Certificate& certificate) {
 }
 
 std::string pose_list(const Certificate& certificate) {
+  const bool approached =
+      std::ranges::any_of(certificate.poses, [](const CertifiedPose& pose) { return !pose.approach.empty(); });
+  const auto side = [](const CertifiedPose& pose) {
+    return "<td>" + (pose.approach.empty() ? std::string("–") : escaped(pose.approach)) + "</td>";
+  };
   std::string rows;
   const std::size_t shown = std::min(kMostListedPoses, certificate.poses.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const CertifiedPose& pose = certificate.poses[i];
     rows += "<tr><th scope=\"row\">" + escaped(pose.id) + (pose.target.empty() ? "" : " " + escaped(pose.target)) +
+            "</th>" + (approached ? side(pose) : std::string()) +
             fmt::format(
-                "</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
+                "<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
                 "<td class=\"number\">{}</td><td>{}</td></tr>\n",
                 pose.measurements, mm_figure(pose.before_mm), mm_figure(pose.after_mm), mm_figure(pose.uncertainty_mm),
                 pose.beyond ? "beyond the tolerance" : "");
@@ -186,9 +192,8 @@ std::string pose_list(const Certificate& certificate) {
       shown < certificate.poses.size()
           ? fmt::format("The {} largest errors of {} {}", shown, certificate.poses.size(), certificate.words.poses)
           : "Judged " + certificate.words.poses;
-  return "<h2>" + title +
-         "</h2>\n<div class=\"wide\"><table id=\"poses\">\n<thead><tr><th>pose</th>"
-         "<th class=\"number\">measurements</th>" +
+  return "<h2>" + title + "</h2>\n<div class=\"wide\"><table id=\"poses\">\n<thead><tr><th>pose</th>" +
+         (approached ? "<th>joints approached from</th>" : "") + "<th class=\"number\">measurements</th>" +
          fmt::format("<th class=\"number\">{0} before, mm</th><th class=\"number\">{0} after, mm</th>",
                      certificate.words.of_one) +
          "<th class=\"number\">95 % of errors within, mm</th><th></th></tr></thead>\n<tbody>\n" + rows +

@@ -11,6 +11,7 @@
 
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "report/figures.hpp"
 #include "report/pose_places.hpp"
 #include "report/report.hpp"
 
@@ -234,10 +235,11 @@ std::string stations_section(const Report& report) {
     add_station_row(one, "accept", &ErrorBySet::accept, rows);
   }
   return section("stations", "Stations",
-                 table_panel("stations",
-                             "<th>station</th><th>set</th><th>tool fitted, mm rms</th><th>before, mm rms</th>"
-                             "<th>after, mm rms</th><th>after, largest, mm</th>",
-                             rows, report.stations.size()));
+                 "<p class=\"note\">" + escaped(station_noise_sentence(report.stations)) + "</p>\n" +
+                     table_panel("stations",
+                                 "<th>station</th><th>set</th><th>tool fitted, mm rms</th><th>before, mm rms</th>"
+                                 "<th>after, mm rms</th><th>after, largest, mm</th>",
+                                 rows, report.stations.size()));
 }
 
 std::string contacts_section(const Report& report) {

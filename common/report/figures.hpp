@@ -98,6 +98,9 @@ std::string stop_sentence(const std::string& stopped);
 /// How measurements scatter, each by itself and together: "0.050 mm an axis, independent; joints repeat to 0.120 mrad".
 std::string noise_sentence(const NoiseEntry& noise);
 
+/// How each station's poses scatter; empty where no station states it.
+std::string station_noise_sentence(const std::vector<StationEntry>& stations);
+
 /// Whether a decoy won, or explains more than noise should; empty without decoys.
 std::string decoys_sentence(const std::vector<DecoyEntry>& decoys);
 /// Why effects that were added are not sure: a decoy fared as none should, other kinds were not considered, or no

@@ -133,6 +133,19 @@ std::string statistics_sentences(const Report& report) {
   return text;
 }
 
+std::string station_noise_sentence(const std::vector<StationEntry>& stations) {
+  std::vector<std::string> parts;
+  for (const StationEntry& one : stations) {
+    if (!one.noise_mm) continue;
+    const std::string repeats = one.noise_floor_mm ? fmt::format(", its repeats by {:.3f}", *one.noise_floor_mm) : "";
+    parts.push_back(fmt::format("{:.3f} mm ({}{})", *one.noise_mm, one.name, repeats));
+  }
+  if (parts.empty()) return {};
+  return fmt::format(
+      "Fitted poses scatter about the model by {} an axis; in the fit poses of all stations count alike.",
+      fmt::join(parts, ", "));
+}
+
 std::string noise_sentence(const NoiseEntry& noise) {
   const std::string independent = fmt::format("{:.3f} mm an axis", noise.independent_mm.value_or(0.0));
   if (!noise.estimated)

@@ -188,19 +188,6 @@ bool has_joints(const CalibratedModel& model) {
   return evolves || has_corrections(model.robot);
 }
 
-/// The figures of every station by itself; nothing where all was measured from one place.
-std::vector<StationEntry> station_entries(const Conclusions& run) {
-  std::vector<StationEntry> entries;
-  for (const Station& station : run.data.stations) {
-    const bool is_first = &station == run.data.stations.data();
-    DataSet own = run.data;
-    std::erase_if(own.poses, [&](const MeasuredPose& pose) { return pose.station != (is_first ? "" : station.name); });
-    entries.push_back({station.name, own.poses.size(), errors_by_set(run.preparation.registered.robot, own),
-                       errors_by_set(run.before, own), errors_by_set(run.model.robot, own)});
-  }
-  return entries;
-}
-
 }  // namespace
 
 std::optional<double> noise_floor_mm(const DataSet& data) {

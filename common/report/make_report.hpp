@@ -62,6 +62,9 @@ Report make_report(const Conclusions& run);
 /// Of data that contradict the robot: what was found, the errors of the nominal robot, and nothing fitted.
 Report refusal_report(const DataSet& data, const std::string& job, const DataCheck& check);
 
+/// The figures of every station by itself; nothing where all was measured from one place.
+std::vector<StationEntry> station_entries(const Conclusions& run);
+
 /// The standard deviation per axis of position about the mean of its repeats, mm; nothing where no pose is repeated.
 std::optional<double> noise_floor_mm(const DataSet& data);
 

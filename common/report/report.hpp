@@ -190,6 +190,7 @@ struct StationEntry {
   std::string name;
   std::uint64_t poses = 0;
   ErrorBySet registered, before, after;
+  std::optional<double> noise_mm, noise_floor_mm;  ///< per axis: of fitted poses about the model (median), of repeats
 };
 
 struct JointEntry {
@@ -293,8 +294,7 @@ struct Report {
 /// Indented JSON with `demecal_report: 1`; numbers that do not exist are null.
 std::string to_json(const Report& report);
 
-/// What to_json() wrote. Of the JSON only `demecal_report: 1` must be there. Throws InputError naming `file` and the
-/// value where the text is no report or a value is of another kind than its key asks for.
+/// What to_json() wrote, `demecal_report: 1` at least. Throws InputError naming `file` and the value that is wrong.
 Report read_report(const std::string& text, const std::string& file);
 
 }  // namespace demecal::inline report

@@ -200,6 +200,7 @@ void fields(auto& visit, Like<StationEntry> auto& station) {
   visit.within("error_mm", [&](auto& stage) {
     stage("registered", station.registered, "before", station.before, "after", station.after);
   });
+  visit("noise_mm", station.noise_mm, "noise_floor_mm", station.noise_floor_mm);
 }
 
 bool has_figures(const ErrorBySet& errors) {

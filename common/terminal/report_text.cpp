@@ -108,7 +108,8 @@ std::string stations(const Report& report) {
     line("validation", &ErrorBySet::validation);
     line("accept", &ErrorBySet::accept);
   }
-  return text;
+  const std::string noise = station_noise_sentence(report.stations);
+  return noise.empty() ? text : text + wrapped("   ", noise, 4);
 }
 
 /// What was touched: what contacts tell, their spread, and the lengths between them.

@@ -124,12 +124,14 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
   result.remarks = update.sentences;
   if (calibration.size() >= kManyPoses && unseen && job.closed_loop.max_effects > 0) {
     Diagnosis anew = diagnose(data, job, std::nullopt, watch);
+    result.end = anew.result.end;
     if (unseen_rms_mm(data, anew.result) < *unseen) {
       result = std::move(anew.result);
       result.remarks.emplace_back(
           "So many poses tell more by themselves than together with the old model: it was not used.");
     }
   }
+  result.facts.interrupted = result.end == RunEnd::interrupted;
   result.facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return result;
 }

@@ -129,7 +129,8 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
                    const RoundWatcher& watch, const SearchExplanations& search = search_explanations);
 
 /// Brings `prior`, a model found before, up to date: see updated(). Of many poses the loop's own model is kept where it
-/// leaves less of unseen validation poses. Throws InputError for data that base and tool cannot be fitted to.
+/// leaves less of unseen validation poses; it ends early when `watch` returns false. Throws InputError for data that
+/// base and tool cannot be fitted to.
 CalibrateResult update_model(const DataSet& data, const Job& job, const CalibratedModel& prior,
                              const RoundWatcher& watch);
 

@@ -29,7 +29,6 @@
 #include "errors/input_error.hpp"
 #include "parameters/declared_model.hpp"
 #include "protocol/messages.hpp"
-#include "report/figures.hpp"
 #include "report/make_report.hpp"
 #include "report/report.hpp"
 #include "scheduling/evolution_run.hpp"
@@ -138,14 +137,6 @@ std::string effort_text(const Job& job, const RunFacts& facts) {
                      facts.wall_s);
 }
 
-/// For those who watch: the figures that the calibration is judged by.
-std::string finished_with(const Report& report) {
-  const std::optional<Improvement> figures = improvement(error_stages(report));
-  if (!figures || !figures->before.mean_mm || !figures->after.mean_mm) return "finished";
-  return fmt::format("finished: mean tool error {:.3f} -> {:.3f} mm on {} poses", *figures->before.mean_mm,
-                     *figures->after.mean_mm, figures->set.name);
-}
-
 /// Tells two what happens, one after the other.
 class ObserverPair final : public CalibrationObserver {
  public:
@@ -197,6 +188,7 @@ ExitCode run_calibrate(CalibrateRequest request) {
                            .out = request.out,
                            .job = job_of(request),
                            .declared_stated = !request.declared.empty(),
+                           .workers = request.workers,
                            .quiet = request.quiet,
                            .force = request.force});
   }
@@ -211,7 +203,7 @@ ExitCode run_calibrate(CalibrateRequest request) {
   const DataSet& data = checked.data;
   if (job.method == Method::structural) require_instrument(data, "the method structural");
   std::vector<std::string> files = result_files(job.method);
-  files.emplace_back("events.jsonl");
+  files.emplace_back(kEventFile);
   make_writable(request.out, files, request.force);
   if (refuses(checked, request.force, ShownFindings::ten)) {
     write_refusal(request.out, job.name, checked);
@@ -224,7 +216,7 @@ ExitCode run_calibrate(CalibrateRequest request) {
   options.patience.worker = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
-  const FilesBeingWritten events(request.out, {"events.jsonl"});
+  const FilesBeingWritten events(request.out, {kEventFile});
   EventLog event_log(request.out, !request.resume.empty(), job.name, join_as_reporter(request.workers));
   ConsoleObserver console(request.quiet);
   ObserverPair observer(console, event_log);
@@ -243,9 +235,7 @@ ExitCode run_calibrate(CalibrateRequest request) {
   }
   const Report report = write_calibration(request, data, result);
   const bool is_interrupted = end == RunEnd::interrupted;
-  event_log.tell_of(report);
-  event_log.finish(is_interrupted ? LoopNews::Stage::interrupted : LoopNews::Stage::finished,
-                   is_interrupted ? "interrupted" : finished_with(report));
+  event_log.finish(report, is_interrupted);
   fmt::print("{}\n  {}\n  {}: {}/model.yaml, report.json, report.html{}\n", to_terminal(report),
              effort_text(job, result.facts), is_interrupted ? "interrupted; what was reached" : "results", request.out,
              has_islands(job.method) ? ", history.csv, fronts.csv" : "");

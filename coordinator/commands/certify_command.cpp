@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "acceptance/certificate.hpp"
@@ -17,6 +18,7 @@
 #include "coordinator/child_process.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "coordinator/xml_signature.hpp"
 #include "data/certificate_fields.hpp"
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
@@ -39,6 +41,7 @@ namespace {
 
 struct CertifyRequest {
   std::string model_file, data_file, out;
+  SigningFiles signing;
   double tolerance_mm = 0.0;
   bool json = false, refit_base = false, force = false;
 };
@@ -123,6 +126,8 @@ void require_past_date(const CertificateFields& fields, const std::string& file)
 }
 
 ExitCode run_certify(const CertifyRequest& request) {
+  const bool is_signed = !request.signing.key.empty();
+  const std::string signer = is_signed ? require_signer() : std::string();
   if (!std::isfinite(request.tolerance_mm)) throw ArgumentError("--tolerance must be a number of mm above 0");
   CalibratedModel model = load_model(request.model_file);
   require_one_robot(model, request.model_file, "certify");
@@ -147,15 +152,17 @@ ExitCode run_certify(const CertifyRequest& request) {
                                                     .model_sha256 = sha256(read_file(request.model_file)),
                                                     .refit_base = request.refit_base,
                                                     .notes = notes});
+  std::string xml = dcc_xml(certificate);
+  if (is_signed) xml = signed_document(signer, with_empty_signature(std::move(xml)), request.signing);
   fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   write_result(request.out, "certificate.html", certificate_html(certificate));
-  write_result(request.out, "certificate.xml", dcc_xml(certificate));
+  write_result(request.out, "certificate.xml", xml);
   const std::string pdf = print_page(request);
   if (request.json) {
     fmt::print("{}", to_json(certificate));
   } else {
-    fmt::print("{}\n{}/certificate.html\n{}/certificate.xml\n{}\n", certificate_summary(certificate), request.out,
-               request.out, pdf);
+    fmt::print("{}\n{}/certificate.html\n{}/certificate.xml{}\n{}\n", certificate_summary(certificate), request.out,
+               request.out, is_signed ? " (signed)" : "", pdf);
   }
   return ExitCode::done;
 }
@@ -178,6 +185,13 @@ void add_certify(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", request->json, "one line of JSON");
   command->add_flag("--refit-base", request->refit_base,
                     "fit base and tool to the poses that are not judged first, where the instrument was moved");
+  CLI::Option* key = command->add_option(
+      "--sign", request->signing.key, "RSA key in PEM, without a passphrase, to sign certificate.xml with, by xmlsec1");
+  CLI::Option* certificate =
+      command->add_option("--certificate", request->signing.certificate,
+                          "of --sign: its X.509 certificate in PEM, which certificate.xml then holds");
+  key->needs(certificate);
+  certificate->needs(key);
   add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run_certify(*request); });
 }

@@ -21,7 +21,9 @@
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
 #include "coordinator/displays.hpp"
+#include "coordinator/event_log.hpp"
 #include "coordinator/result_folder.hpp"
+#include "coordinator/workers.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "diagnosis/outcome.hpp"
@@ -86,6 +88,11 @@ Job diagnosis_job(const DiagnoseRequest& request, const DeclaredModel& declared)
   return job;
 }
 
+/// A diagnosis is recorded, and opens no socket.
+WorkerArguments nobody_listens() {
+  return {.count = 0, .in_process = true, .dds = {}};
+}
+
 /// The poses that would teach most, in a file beside the results.
 void write_proposed(const DiagnoseRequest& request, const DataSet& data, const Diagnosis& diagnosis) {
   const DiagnosisProblem problem{data, diagnosis.result.model.declared, poses_of(data, PoseSet::calibration),
@@ -102,6 +109,7 @@ ExitCode run_diagnose(const DiagnoseRequest& request) {
                            .out = request.out,
                            .job = diagnosis_job(request, declared_model(request.declared)),
                            .declared_stated = !request.declared.empty(),
+                           .workers = nobody_listens(),
                            .json = request.json,
                            .quiet = request.quiet,
                            .force = request.force});
@@ -114,6 +122,7 @@ ExitCode run_diagnose(const DiagnoseRequest& request) {
   if (known) require_one_robot(*known, request.model_file, "--model");
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   std::vector<std::string> files = result_files(Method::diagnose);
+  files.emplace_back(kEventFile);
   if (request.proposed > 0) files.emplace_back("proposed.csv");
   make_writable(request.out, files, request.force);
   const Job job = diagnosis_job(request, declared_by(request, known, data));
@@ -128,15 +137,19 @@ ExitCode run_diagnose(const DiagnoseRequest& request) {
   }
   display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
                           fmt::join(job.declared.words(), ", ")));
+  const FilesBeingWritten events(request.out, {kEventFile});
+  EventLog event_log(request.out, false, job.name, join_as_reporter(nobody_listens()));
   Diagnosis diagnosis = fit_or_report(request.out, job.name, checked, [&] {
     return diagnose(data, job, known, [&](const Round& round) {
       display.on_round(round);
+      event_log.on_round(round, data.robot);
       return !interrupt;
     });
   });
   diagnosis.result.check = checked.check;
   const CalibrateResult& result = diagnosis.result;
   const Report report = write_results(request.out, data, result);
+  event_log.finish(report, result.end == RunEnd::interrupted);
   if (request.proposed > 0) write_proposed(request, data, diagnosis);
   if (request.json) {
     fmt::print("{}", to_json(report));

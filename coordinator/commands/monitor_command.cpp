@@ -140,7 +140,7 @@ void add_monitor(CLI::App& app, ExitCode& exit_code) {
                           ->capture_default_str();
   CLI::Option* recorded = command->add_option(
       "--replay", request->recorded,
-      "show a recorded run: a folder that calibrate wrote, its events.jsonl, or what --record wrote");
+      "show a recorded run: a folder that calibrate or diagnose wrote, its events.jsonl, or what --record wrote");
   command->add_option("--speed", request->options.speed, "of --replay: how much faster than it was")
       ->needs(recorded)
       ->check(CLI::Range(1e-3, 1e6))

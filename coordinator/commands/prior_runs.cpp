@@ -18,7 +18,9 @@
 
 #include "config/model_file.hpp"
 #include "coordinator/displays.hpp"
+#include "coordinator/event_log.hpp"
 #include "coordinator/result_folder.hpp"
+#include "coordinator/workers.hpp"
 #include "report/report.hpp"
 #include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
@@ -33,7 +35,9 @@ ExitCode run_with_prior(PriorRun run) {
   if (!run.declared_stated) run.job.declared = prior.declared;
   run.job.declared.registration = run.job.declared.tool = true;
   run.job.method = Method::diagnose;
-  make_writable(run.out, result_files(Method::diagnose), run.force);
+  std::vector<std::string> files = result_files(Method::diagnose);
+  files.emplace_back(kEventFile);
+  make_writable(run.out, files, run.force);
   if (refuses(checked, run.force, ShownFindings::ten)) {
     write_refusal(run.out, run.job.name, checked);
     return ExitCode::contradiction;
@@ -45,22 +49,29 @@ ExitCode run_with_prior(PriorRun run) {
                                     : fmt::format("the model of {} ({})", prior.job, prior.data_name);
   display.say(fmt::format("{} on {}: {} poses, beginning with {}, declared: {}", data.robot.name, data.name,
                           data.poses.size(), beginning, fmt::join(run.job.declared.words(), ", ")));
+  const FilesBeingWritten events(run.out, {kEventFile});
+  EventLog event_log(run.out, false, run.job.name, join_as_reporter(run.workers));
   CalibrateResult result = fit_or_report(run.out, run.job.name, checked, [&] {
     return update_model(data, run.job, prior, [&](const Round& round) {
       display.on_round(round);
+      event_log.on_round(round, data.robot);
       return !interrupt;
     });
   });
   result.check = checked.check;
   const Report report = write_results(run.out, data, result);
+  const bool is_interrupted = result.end == RunEnd::interrupted;
+  event_log.finish(report, is_interrupted);
+  const ExitCode end = is_interrupted ? ExitCode::interrupted : ExitCode::done;
   if (run.json) {
     fmt::print("{}", to_json(report));
-    return ExitCode::done;
+    return end;
   }
   fmt::print("{}\n", to_terminal(report));
   for (const std::string& remark : result.remarks) fmt::print("{}\n", wrapped("  ", remark, 4));
-  fmt::print("  {:.1f} s; results: {}/model.yaml, report.json, report.html\n", result.facts.wall_s, run.out);
-  return ExitCode::done;
+  fmt::print("  {:.1f} s; {}: {}/model.yaml, report.json, report.html\n", result.facts.wall_s,
+             is_interrupted ? "interrupted; what was reached" : "results", run.out);
+  return end;
 }
 
 }  // namespace demecal

@@ -238,11 +238,11 @@ std::optional<std::string> JobFolders::result(const JobId& id, const std::string
   return read_bytes(file->descriptor(), 0, file->bytes(), name);
 }
 
-void JobFolders::remove_certificates(const JobId& id) const {
+void JobFolders::remove_results(const JobId& id, std::string_view beginning) const {
   const OwnedDescriptor results = open_below(folder(id).get(), kResults, kFolder);
   if (results.get() < 0) return;
   for (const char* const name : kOffered) {
-    if (!std::string_view(name).starts_with("certificate.")) continue;
+    if (!std::string_view(name).starts_with(beginning)) continue;
     if (::unlinkat(results.get(), name, 0) != 0 && errno != ENOENT)
       fail_with_errno(name_in_job(id, std::string(kResults) + '/' + name) + " cannot be removed");
   }

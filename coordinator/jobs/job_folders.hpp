@@ -68,8 +68,8 @@ class JobFolders {
   std::shared_ptr<AnsweredFile> open_result(const JobId& id, const std::string& name) const;
   /// The text of a file of results of at most `most` bytes; nothing where there is none, or it is larger.
   std::optional<std::string> result(const JobId& id, const std::string& name, std::uint64_t most) const;
-  /// Certificates are of the model that stood there when they were made.
-  void remove_certificates(const JobId& id) const;
+  /// Those of the files that a run leaves whose names begin so.
+  void remove_results(const JobId& id, std::string_view beginning) const;
   bool can_go_on(const JobId& id) const;  ///< a run was broken off, and left its journal
 
   /// What the last run said, open to be written to; emptied unless `keep`.

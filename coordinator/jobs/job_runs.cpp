@@ -43,9 +43,12 @@ void JobService::begin(const JobId& id) {
   is_stopping_ = false;
   command_ = 0;
   folders_.save(id, queue_.record(id));
-  folders_.remove_certificates(id);
+  // What it leaves is of its own files, even where it fails; certificates are of the model that stood there when they
+  // were made.
+  const bool goes_on = orders_[id].goes_on;
+  folders_.remove_results(id, goes_on ? "certificate." : "");
   began_ = Clock::now();
-  begin_command(id, orders_[id].goes_on);
+  begin_command(id, goes_on);
 }
 
 void JobService::begin_command(const JobId& id, bool keep_terminal) {

@@ -59,6 +59,22 @@ TEST(Certificate, JudgesThePoseAndNotItsSides) {
   EXPECT_TRUE(remarks_on(certificate, "12 poses were measured with several targets or from several sides"));
 }
 
+TEST(Certificate, TellsFromWhichSideAPoseWasApproachedWhereTheDataDo) {
+  for (const bool recorded : {true, false}) {
+    SentArm arm(25);
+    for (int i = 0; i < 12; ++i) {
+      MeasuredPose& pose = arm.add("P" + std::to_string(i), arm.somewhere(), Eigen::Vector3d(1e-4 * i, 0, 0));
+      if (recorded) pose.approach = ApproachSigns::Constant(6, i - 10);
+      if (recorded) (*pose.approach)[5] = 0;
+    }
+    const Certificate certificate = certificate_of(arm, run_at(2e-3));
+    EXPECT_EQ(certificate.poses.front().id, "P11");
+    EXPECT_EQ(certificate.poses.front().approach, recorded ? "+++++0" : "");
+    EXPECT_EQ(certificate.poses.back().approach, recorded ? "-----0" : "");
+    EXPECT_EQ(to_json(certificate).find("+++++0") != std::string::npos, recorded);
+  }
+}
+
 TEST(Certificate, TakesPosesAtTheSameJointsForOne) {
   SentArm arm(22), apart(22);
   for (int i = 0; i < 20; ++i) {

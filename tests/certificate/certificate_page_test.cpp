@@ -40,6 +40,20 @@ TEST(CertificatePage, ShowsTheFigures) {
   }
 }
 
+TEST(CertificatePage, HasAColumnOfApproachesWhereAnyIsRecorded) {
+  Certificate certificate = made_up_certificate();
+  EXPECT_THAT(words_of(certificate_html(certificate)), Not(HasSubstr("approached")));
+  const std::size_t columns = table_of(certificate_html(certificate), "poses")[0].size();
+  certificate.poses[1].approach = "+-0+-+";
+  const std::string page = certificate_html(certificate);
+  EXPECT_EQ(unbalanced(page), "");
+  EXPECT_THAT(words_of(page), HasSubstr("approached"));
+  const auto rows = table_of(page, "poses");
+  EXPECT_THAT(rows[0], SizeIs(columns + 1));
+  EXPECT_EQ(rows[1][1], "+-0+-+");
+  EXPECT_EQ(rows[0][1], "–");
+}
+
 TEST(CertificatePage, ListsTheLargestErrorsOfManyPoses) {
   const std::string page = certificate_html(made_up_certificate(200));
   EXPECT_THAT(table_of(page, "poses"), SizeIs(60));

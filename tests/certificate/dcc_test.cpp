@@ -70,10 +70,22 @@ TEST_F(Schema, AcceptsTextsOfAnyBytes) {
   EXPECT_EQ(complaint(dcc_xml(certificate)), "");
 }
 
+TEST_F(Schema, AcceptsAPlaceForASignature) {
+  EXPECT_EQ(complaint(with_empty_signature(dcc_xml(made_up_certificate()))), "");
+}
+
 TEST_F(Schema, RefusesWhatIsNoCertificate) {
   std::string xml = dcc_xml(made_up_certificate());
   xml.replace(xml.find("3.2.1"), 5, "9.9.9");
   EXPECT_NE(complaint(xml), "");
+}
+
+TEST_F(Schema, AcceptsApproachesOfSomePosesOrAll) {
+  Certificate certificate = made_up_certificate();
+  EXPECT_EQ(dcc_xml(certificate).find("approached"), std::string::npos);
+  certificate.poses[1].approach = "+-0+-+";
+  EXPECT_EQ(complaint(dcc_xml(certificate)), "");
+  EXPECT_NE(dcc_xml(certificate).find("- +-0+-+ - "), std::string::npos);
 }
 
 TEST(DigitalCertificate, HoldsTheFigures) {

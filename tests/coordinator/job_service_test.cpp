@@ -42,6 +42,11 @@ class ServedJobs : public ::testing::Test {
     return options;
   }
   fs::path job(const std::string& name) const { return root_ / "ann" / name; }
+  /// As a run does.
+  void leave_results(const std::string& name, const std::vector<std::string>& files) const {
+    fs::create_directories(job(name) / "results");
+    for (const std::string& file : files) std::ofstream(job(name) / "results" / file) << file;
+  }
   /// From now on job.json cannot be written: where it is made, there is a folder.
   void break_record(const std::string& name) const { fs::create_directory(job(name) / ".being-written"); }
   void mend_record(const std::string& name) const { fs::remove(job(name) / ".being-written"); }
@@ -141,18 +146,31 @@ TEST_F(ServedJobs, KeepTheirStateWhereAnUploadCannotBeSaved) {
   EXPECT_EQ(state(service, "first"), "done");
 }
 
-TEST_F(ServedJobs, BeginWithoutTheCertificateOfAnEarlierRun) {
+TEST_F(ServedJobs, OfferNothingOfAnEarlierRun) {
+  JobServiceOptions of_run = options();
+  for (const char* const program : {"/bin/true", "/bin/false"}) {
+    of_run.program = program;
+    JobService service(of_run);
+    if (program == std::string("/bin/true")) make_job(service, "first");
+    leave_results("first", {"certificate.html", "certificate.pdf", "certificate.xml", "model.yaml", "notes.txt"});
+    EXPECT_EQ(jobs(service)[0]["results"].size(), 4U);
+    EXPECT_EQ(post(service, {"jobs", "first", "run"}).status, 200);
+    EXPECT_TRUE(becomes(service, "first", program == std::string("/bin/true") ? "done" : "failed"));
+    EXPECT_TRUE(jobs(service)[0]["results"].empty()) << jobs(service)[0];
+    EXPECT_TRUE(fs::exists(job("first") / "results/notes.txt"));
+  }
+}
+
+TEST_F(ServedJobs, KeepWhatARunReachedThatGoesOnButItsCertificate) {
+  { JobService(options()).answer({.user = "ann", .changes = true, .path = {"jobs", "first", "make"}}); }
+  leave_results("first", {"certificate.pdf", "model.yaml", "events.jsonl", "run.journal"});
+  std::ofstream(job("first") / "input/job.yaml") << "demecal_job: 1\n";
+  std::ofstream(job("first") / "job.json") << record_text({.state = JobState::interrupted, .exit_code = 130});
   JobService service(options());
-  make_job(service, "first");
-  fs::create_directories(job("first") / "results");
-  for (const char* const name : {"certificate.html", "certificate.pdf", "certificate.xml", "model.yaml", "notes.txt"})
-    std::ofstream(job("first") / "results" / name) << name;
+  ASSERT_EQ(jobs(service)[0]["goes_on"], true);
   EXPECT_EQ(post(service, {"jobs", "first", "run"}).status, 200);
   EXPECT_TRUE(becomes(service, "first", "done"));
-  const Listed results = jobs(service)[0]["results"];
-  ASSERT_EQ(results.size(), 1U) << results;
-  EXPECT_EQ(results[0]["name"], "model.yaml");
-  EXPECT_TRUE(fs::exists(job("first") / "results/notes.txt"));
+  EXPECT_EQ(jobs(service)[0]["results"].size(), 2U) << jobs(service)[0];
 }
 
 TEST_F(ServedJobs, AreOfOneServerAtATime) {

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "certified.hpp"
 #include "program.hpp"
 #include "small_job.hpp"
 
@@ -13,33 +14,6 @@ namespace demecal {
 namespace {
 
 using Json = nlohmann::json;
-
-/// A model found on simulated data, and certificates of it.
-class Certified {
- public:
-  explicit Certified(const std::string& stated = "") {
-    std::ofstream(job_.data(), std::ios::app) << stated;
-    const Ended ended = run("demecal", {"diagnose", job_.data(), "--declare", "registration,joint_corrections",
-                                        "--candidates", "joint_offset,gear_harmonic", "--out", job_.path("out")});
-    EXPECT_EQ(ended.code, 0) << ended.err;
-  }
-
-  Ended certify(const std::string& tolerance, std::vector<std::string> more = {}) {
-    std::vector<std::string> arguments{"certify", job_.path("out/model.yaml"), job_.data(), "--tolerance", tolerance,
-                                       "--out",   job_.path("signed")};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run("demecal", arguments);
-  }
-  std::string text(const std::string& name) const { return job_.text(name); }
-  std::string path(const std::string& name) const { return job_.path(name); }
-
- private:
-  SmallJob job_;
-};
-
-bool has(const std::string& text, const std::string& words) {
-  return text.find(words) != std::string::npos;
-}
 
 TEST(Certify, EndsWellWhateverTheVerdict) {
   Certified robot;
@@ -134,14 +108,6 @@ TEST(Certify, HasTheFiguresOfTheReport) {
   }
   const std::string largest = report["error_mm"]["after"]["accept"]["max"].dump();
   EXPECT_TRUE(has(xml, "<si:value>" + largest.substr(0, 8))) << largest;
-}
-
-/// The words of a PDF; empty where nothing reads it.
-std::string words_of_pdf(const std::string& path) {
-  const std::string text = path + ".txt";
-  if (std::system(("pdftotext -layout '" + path + "' '" + text + "' 2>/dev/null").c_str()) != 0) return {};
-  std::ifstream file(text);
-  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 TEST(Certify, PrintsTheSameFigures) {

@@ -91,16 +91,66 @@ TEST(Diagnose, IsTheSameEveryTimeAndDoesNotReadTheTruth) {
   EXPECT_EQ(job.text("with/model.yaml"), job.text("without/model.yaml"));
 }
 
-/// The scenario of the job measured from another place; returns the data set.
-std::string second_station(const SmallJob& job) {
+/// The events of a recorded run that have this word.
+std::vector<Json> recorded_events(const SmallJob& job, const std::string& out, const std::string& word) {
+  std::vector<Json> events;
+  std::istringstream lines(job.text(out + "/events.jsonl"));
+  for (std::string line; std::getline(lines, line);) {
+    Json event = Json::parse(line);
+    if (event.at("event") == word) events.push_back(std::move(event));
+  }
+  return events;
+}
+
+TEST(Diagnose, LeavesARecordOfItsRoundsCausesAndFigures) {
+  const SmallJob job(20, 2, kBacklash);
+  ASSERT_EQ(run("demecal", diagnose(job, "out", {"--declare", "registration,joint_corrections"})).code, 0);
+  const Json report = report_of(job, "out");
+  EXPECT_GE(recorded_events(job, "out", "round").size(), report["rounds"].size());
+  EXPECT_EQ(recorded_events(job, "out", "cause").size(), report["causes"].size());
+  ASSERT_FALSE(report["causes"].empty());
+  const std::vector<Json> stages = recorded_events(job, "out", "stage"),
+                          figures = recorded_events(job, "out", "final_figures");
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_NEAR(figures[0]["accept_after_mm"], report["error_mm"]["after"]["accept"]["rms"], 1e-9);
+  ASSERT_FALSE(stages.empty());
+  EXPECT_EQ(stages.back()["stage"], "finished");
+  const Ended shown = run("demecal", {"monitor", "--replay", job.path("out"), "--once"});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_NE(shown.out.find(report["causes"][0]["name"]), std::string::npos) << shown.out;
+
+  const Ended again = run("demecal", diagnose(job, "out", {"--prior", job.path("out/model.yaml")}));
+  ASSERT_EQ(again.code, 0) << again.err;
+  EXPECT_EQ(recorded_events(job, "out", "final_figures").size(), 1U);
+}
+
+/// The scenario of the job measured from another place, with that noise; returns the data set.
+std::string second_station(const SmallJob& job, const std::string& noise_mm = "0.05") {
   std::string scenario = job.text("scenario.yaml");
   const std::string place = "[1850, -640, 420], rotation_deg: [4, -7, 115]";
   scenario.replace(scenario.find(place), place.size(), "[-900, 1400, 210], rotation_deg: [0, 3, -40]");
   scenario.replace(scenario.find("seed: 5"), 7, "seed: 6");
+  scenario.replace(scenario.find("noise_mm: 0.05"), 14, "noise_mm: " + noise_mm);
   std::ofstream(job.path("south.yaml")) << scenario;
   const Ended simulated = run("demecal", {"simulate", job.path("south.yaml"), "--out", job.path("south")});
   if (simulated.code != 0) throw std::runtime_error(simulated.err);
   return job.path("south/dataset.yaml");
+}
+
+TEST(Diagnose, TellsTheNoiseOfEachStation) {
+  const SmallJob job;
+  const std::vector<std::string> more{second_station(job, "0.2"), "--declare", "registration,tool,joint_corrections",
+                                      "--max-effects", "0"};
+  const Ended ended = run("demecal", diagnose(job, "out", more));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json stations = report_of(job, "out")["stations"];
+  ASSERT_EQ(stations.size(), 2U);
+  EXPECT_NEAR(stations[0]["noise_mm"], 0.05, 0.03);
+  EXPECT_NEAR(stations[1]["noise_mm"], 0.2, 0.05);
+  EXPECT_TRUE(stations[0]["noise_floor_mm"].is_null()) << "nothing was repeated";
+  const std::string words = "scatter about the model by 0.";
+  EXPECT_NE(ended.out.find(words), std::string::npos) << ended.out;
+  EXPECT_NE(job.text("out/report.html").find(words), std::string::npos);
 }
 
 TEST(Diagnose, FitsTwoStationsAsOneAndKnowsThemAgain) {

@@ -137,5 +137,41 @@ TEST(Monitor, ShowsARecordedRun) {
   EXPECT_EQ(run("demecal", {"monitor", "--replay", job.job()}).code, 11);
 }
 
+/// The words of a calibration's news, in their order, each as often as it comes.
+std::vector<std::string> words_of(const std::vector<Json>& events) {
+  std::vector<std::string> words;
+  for (const Json& event : events) words.push_back(event["event"]);
+  return words;
+}
+
+TEST(Monitor, HearsOfACalibrationThatBeganWithAnOlderModelAsOfAnyOther) {
+  const SmallJob job;
+  ASSERT_EQ(run("demecal", calibrate_on(job, "old", 5)).code, 0);
+  const auto with_prior = [&](const std::string& out, std::vector<std::string> more) {
+    more.insert(more.begin(), {"calibrate", job.job(), "--prior", job.path("old/model.yaml"), "--out", job.path(out)});
+    return more;
+  };
+  StartedProgram watching("demecal", monitor(5, {"--json"}));
+  ASSERT_TRUE(watching.wait_for_out("begin"));
+  const Ended ended = run("demecal", with_prior("out", {"--domain", domain(5), "--quiet"}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  ASSERT_TRUE(watching.wait_for_out("\"finished\""));
+  const std::vector<Json> recorded = events_of(job.text("out/events.jsonl"));
+  EXPECT_EQ(words_of(recorded), (std::vector<std::string>{"stage", "final_figures", "stage"}));
+  EXPECT_TRUE(has(recorded, "stage", "stage", "finished"));
+  const Json figures = recorded.at(1), report = Json::parse(job.text("out/report.json"));
+  EXPECT_EQ(figures["job"], "job");
+  EXPECT_NEAR(figures["accept_after_mm"], report["error_mm"]["after"]["accept"]["rms"], 1e-9);
+  EXPECT_NE(watching.out_so_far().find("\"final_figures\""), std::string::npos) << watching.out_so_far();
+  const Ended once = run("demecal", {"monitor", "--replay", job.path("out"), "--once"});
+  EXPECT_EQ(once.code, 0) << once.err;
+  EXPECT_NE(once.out.find("finished"), std::string::npos) << once.out;
+
+  ASSERT_EQ(run("demecal", with_prior("unheard", {"--workers", "in-process"})).code, 0);
+  EXPECT_EQ(words_of(events_of(job.text("unheard/events.jsonl"))), words_of(recorded));
+  ASSERT_FALSE(job.text("out/model.yaml").empty());
+  EXPECT_EQ(job.text("unheard/model.yaml"), job.text("out/model.yaml"));
+}
+
 }  // namespace
 }  // namespace demecal

@@ -127,11 +127,13 @@ TEST(ResultFolder, HoldsNoResultsOfAnEarlierRunThatThisOneDoesNotWrite) {
                                            job.path("out"), "--workers", "in-process:2"};
   ASSERT_EQ(run("demecal", calibrate).code, 0);
   ASSERT_NE(job.text("out/fronts.csv"), "");
+  const std::string evolution = "\"progress\"";
+  ASSERT_NE(job.text("out/events.jsonl").find(evolution), std::string::npos);
   const std::string edited = job.text("out/history.csv") + "\n";
   leave(job, "out/history.csv", edited);
   ASSERT_EQ(diagnose_into(job, "out").code, 0);
-  for (const char* const gone : {"fronts.csv", "events.jsonl"})
-    EXPECT_FALSE(std::filesystem::exists(job.path("out/" + std::string(gone)))) << gone;
+  EXPECT_FALSE(std::filesystem::exists(job.path("out/fronts.csv")));
+  EXPECT_EQ(job.text("out/events.jsonl").find(evolution), std::string::npos) << "its own record, not the earlier one";
   EXPECT_EQ(job.text("out/history.csv"), edited);
   std::filesystem::remove(job.path("out/history.csv"));
   // What a run writes stays, its events among them, which are written all the while.

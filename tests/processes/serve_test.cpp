@@ -161,6 +161,9 @@ TEST(Serve, SaysWhyARunFailed) {
   write_uploads(job);
   const Serving serving(job.path("jobs"));
   upload(serving, job, "bad");
+  EXPECT_TRUE(succeeds(serving.post("api/jobs/bad/run")));
+  ASSERT_TRUE(serving.becomes("bad", "done"));
+  EXPECT_FALSE(serving.job("bad")["results"].empty());
   std::ofstream(job.path("bad.csv")) << "a,b\n1,2\n";
   EXPECT_TRUE(succeeds(serving.post("api/jobs/bad/files/poses.csv", "", job.path("bad.csv"))));
   EXPECT_TRUE(succeeds(serving.post("api/jobs/bad/run")));
@@ -168,6 +171,8 @@ TEST(Serve, SaysWhyARunFailed) {
   const Answered failed = serving.job("bad");
   EXPECT_EQ(failed["exit_code"], 11);
   EXPECT_THAT(failed["said"].get<std::string>(), HasSubstr("poses.csv"));
+  EXPECT_TRUE(failed["results"].empty()) << "of the files before: " << failed["results"];
+  EXPECT_TRUE(serving.get("api/jobs/bad/results/model.yaml").ends_with("\n404"));
 }
 
 }  // namespace

@@ -91,6 +91,20 @@ TEST(Diagnose, StopsAfterTheRoundAtWhichItIsTold) {
   EXPECT_EQ(result.loop.rounds.size(), 1U);
 }
 
+TEST(UpdateModel, SaysThatItWasInterruptedThoughItKeepsTheOldModel) {
+  Scenario scenario = lacking_puma(true);
+  scenario.poses = {160, 60, 0};
+  const DataSet data = simulate(scenario);
+  const CalibratedModel found = diagnose(data, diagnosing_job(kSmooth), {}, {}).result.model;
+  const Job bare = diagnosing_job({.registration = true});  // which leaves a model of its own worse than the old one
+  int rounds = 0;
+  const CalibrateResult result = update_model(data, bare, found, [&](const Round&) { return ++rounds < 1; });
+  EXPECT_EQ(rounds, 1);
+  EXPECT_TRUE(result.loop.rounds.empty());
+  EXPECT_EQ(result.end, RunEnd::interrupted);
+  EXPECT_TRUE(result.facts.interrupted);
+}
+
 TEST(Diagnose, DeclaresByDefaultWhatThePosesDetermine) {
   Scenario scenario = lacking_puma(true);
   EXPECT_TRUE(declared_by_default(simulate(scenario)).geometry);

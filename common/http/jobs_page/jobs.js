@@ -62,7 +62,7 @@ function stateOf(job) {
     case 'running': return `running for ${duration(job.began_s, Date.now() / 1000)}`;
     case 'done': return `done, in ${duration(job.began_s, job.ended_s)}`;
     case 'interrupted': return job.goes_on ? 'interrupted; what was reached is saved, and it can go on from there' : 'interrupted; results, if any, are what was reached';
-    default: return `failed: ${kWhy[job.exit_code] ?? `exit code ${job.exit_code}`}`;
+    default: return `failed: ${kWhy[job.exit_code] ?? `exit code ${job.exit_code}`}${job.results.length > 0 ? '' : '; it left no results'}`;
   }
 }
 
