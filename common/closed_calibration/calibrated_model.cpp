@@ -8,6 +8,7 @@
 #include "decompositions/decompositions.hpp"
 #include "diagnosis/loop.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/station_scales.hpp"
 #include "fitting/tall_products.hpp"
 #include "kinematics/chain.hpp"
 #include "prediction/measurement.hpp"
@@ -30,7 +31,7 @@ RowScales scatter_of(const DataSet& data, const CorrectedRobot& robot, const std
   RowScales scales = median_deviations(data, robot, observations);
   for (double& scale : scales) scale = scale > 0.0 ? std::max(scale, kSmallest) : scale;
   if (mounted_otherwise(data, robot, observations)) scales[kOrientation] = 0.0;
-  return scales;
+  return scales_of_stations(data, robot, observations, scales);
 }
 
 /// The variance of rows of unit scale, by what they leave; larger where few are left to estimate it from (Student).

@@ -142,7 +142,7 @@ std::vector<double> tool_errors_mm(const ResidualField& field, const Eigen::Vect
     Eigen::VectorXd rows = left.segment(first, count);
     if (field.within[pose].size() > 0) rows = field.within[pose] * rows;
     const double norm = rows.head(position ? points : count).norm();
-    errors.push_back(position ? 1e3 * scales[kPosition] * norm
+    errors.push_back(position ? 1e3 * scales.of(measured, kPosition) * norm
                               : 1e3 * std::max(scales[kDistance], 1e-9) * norm / std::sqrt(static_cast<double>(count)));
   }
   return errors;

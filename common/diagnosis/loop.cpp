@@ -133,9 +133,10 @@ void ClosedLoop::measure_pure_error(const Linearization& linearization) {
   const RowMatrix errors = unwhitened(linearization.fitted, linearization.errors);
   double squares = 0.0, freedom = 0.0;
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
-    if (!problem_.data.poses[linearization.fitted.poses[i]].position_m) continue;
+    const MeasuredPose& pose = problem_.data.poses[linearization.fitted.poses[i]];
+    if (!pose.position_m) continue;
     const Eigen::Index first = linearization.fitted.first_row[i];
-    squares += errors.middleRows(first, 3).squaredNorm();
+    squares += std::pow(model_.scales.factor(pose, kPosition), 2) * errors.middleRows(first, 3).squaredNorm();
     freedom += 3.0 - linearization.projection.basis().middleRows(first, 3).squaredNorm();
   }
   squares *= std::pow(model_.scales[kPosition], 2);
@@ -225,9 +226,8 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
     }
     if (!more) break;
   }
-  if (outcome_.stopped == StopReason::no_structure && p_structure_ <= options_.family_error) {
+  if (outcome_.stopped == StopReason::no_structure && p_structure_ <= options_.family_error)
     outcome_.stopped = StopReason::no_gain;
-  }
   linearization = choose_explanation(std::move(linearization), result);
   measure_pure_error(linearization);
   finish(linearization);

@@ -10,6 +10,7 @@
 #include "fitting/base_search.hpp"
 #include "fitting/least_squares.hpp"
 #include "fitting/row_sums.hpp"
+#include "fitting/station_scales.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
 #include "prediction/measurement.hpp"
@@ -73,14 +74,6 @@ ScaledJacobian jacobian_at_reference(const LeastSquares& problem) {
   return ScaledJacobian(factor.factor());
 }
 
-bool scales_agree(const RowScales& before, const RowScales& after) {
-  constexpr double kTolerance = 0.01;
-  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
-    if (before[kind] > 0 && std::abs(after[kind] / before[kind] - 1) > kTolerance) return false;
-  }
-  return true;
-}
-
 struct ScaledFit {
   Minimum minimum;
   Scatter scatter;
@@ -89,13 +82,18 @@ struct ScaledFit {
 /// Fits and takes the scales from what is left, in turn, until they settle.
 ScaledFit fit_and_scale(LeastSquares problem) {
   constexpr int kMostRounds = 20;
+  constexpr double kSettled = 0.01;  ///< of a scale
   ScaledFit result;
   result.minimum.change.setZero(problem.space.size());
   for (int round = 0; round < kMostRounds; ++round) {
     result.minimum = minimise(problem, result.minimum.change);
     result.scatter = scatter_at(problem, result.minimum.change);
-    const RowScales& scales = problem.robust ? result.scatter.median_deviation : result.scatter.deviation;
-    if (scales_agree(problem.scales, scales)) break;
+    RowScales scales = problem.robust ? result.scatter.median_deviation : result.scatter.deviation;
+    if (!problem.data.stations.empty()) {
+      const CorrectedRobot robot = problem.space.at(result.minimum.change).robot;
+      scales.stations = scales_of_stations(problem.data, robot, problem.observations, scales).stations;
+    }
+    if (scales_settled(problem.scales, scales, kSettled)) break;
     problem.scales = scales;
   }
   return result;
@@ -192,7 +190,8 @@ bool motions_differ(const std::vector<Observation>& before, const std::vector<Ob
 /// Fits from a start whose base and tools stand about where they should.
 Fit fit_placed(const DataSet& data, const std::vector<Observation>& observations, const std::vector<ParameterId>& ids,
                const CorrectedRobot& placed, bool tool, const FitOptions& options) {
-  const RowScales scales = first_scales(data, placed, observations, tool);
+  const RowScales scales =
+      scales_of_stations(data, placed, observations, first_scales(data, placed, observations, tool));
   const auto parameters = static_cast<int>(ids.size());
   const int usable = rows_in_use(data, observations, scales);
   if (usable <= parameters) return too_few(placed, observations.size(), usable, parameters);

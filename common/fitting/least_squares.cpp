@@ -241,17 +241,20 @@ std::vector<std::size_t> find_outliers(const LeastSquares& problem, const Correc
 }  // namespace
 
 RowScales median_deviations(const DataSet& data, const CorrectedRobot& robot,
-                            const std::vector<Observation>& observations) {
+                            const std::vector<Observation>& observations, const std::vector<StationFactors>& stations) {
+  RowScales deviation{};
+  deviation.stations = stations;
   std::array<std::vector<double>, kRowKinds> absolute;
   for (const Observation& observation : observations) {
     const Eigen::VectorXd all = unscaled_residual(data, robot, observation);
-    const RowCounts count = count_rows(data.poses[observation.pose]);
+    const MeasuredPose& pose = data.poses[observation.pose];
+    const RowCounts count = count_rows(pose);
     int row = 0;
     for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
-      for (int i = 0; i < count[kind]; ++i) absolute[kind].push_back(std::abs(all[row++]));
+      const double factor = deviation.factor(pose, kind);
+      for (int i = 0; i < count[kind]; ++i) absolute[kind].push_back(std::abs(all[row++]) / factor);
     }
   }
-  RowScales deviation{};
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
     if (!absolute[kind].empty())
       deviation[kind] = std::max(kLeastDeviation, kMedianToDeviation * median(absolute[kind]));
@@ -265,8 +268,9 @@ Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change) {
   for (const RowKindSums& sum : sums) information += sum.information;
   const Eigen::MatrixXd inverse = pseudo_inverse(information);
   const CorrectedRobot robot = problem.space.at(change).robot;
-  const RowScales medians = median_deviations(problem.data, robot, problem.observations);
+  const RowScales medians = median_deviations(problem.data, robot, problem.observations, problem.scales.stations);
   Scatter scatter;
+  scatter.deviation.stations = scatter.median_deviation.stations = problem.scales.stations;
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
     if (problem.scales[kind] <= 0) continue;
     const double taken = inverse.cwiseProduct(sums[kind].information).sum();

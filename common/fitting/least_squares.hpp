@@ -70,8 +70,10 @@ struct Scatter {
 /// not divide by zero. Outliers are poses that clean data would have once in a hundred fits.
 Scatter scatter_at(const LeastSquares& problem, const Eigen::VectorXd& change);
 
-/// The deviation per kind from the median alone, nothing fitted: a first scale.
+/// The deviation per kind from the median alone, nothing fitted: a first scale; of rows over what `stations` says that
+/// their station's are larger by, and with it.
 RowScales median_deviations(const DataSet& data, const CorrectedRobot& robot,
-                            const std::vector<Observation>& observations);
+                            const std::vector<Observation>& observations,
+                            const std::vector<StationFactors>& stations = {});
 
 }  // namespace demecal::inline fitting

@@ -1,6 +1,7 @@
 #include "parameters/observation.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <map>
@@ -27,7 +28,7 @@ int for_each_row_in_use(const MeasuredPose& pose, const RowScales& scales, Visit
   int used = 0, all = 0;
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
     for (int i = 0; i < count[kind]; ++i, ++all) {
-      if (scales[kind] > 0) visit(used++, all, scales[kind]);
+      if (scales[kind] > 0) visit(used++, all, scales.of(pose, kind));
     }
   }
   return used;
@@ -45,6 +46,11 @@ bool grows_with_the_arm(const MeasuredPose& pose, int row) {
 }
 
 }  // namespace
+
+double RowScales::factor(const MeasuredPose& pose, std::size_t kind) const {
+  const auto own = std::ranges::find(stations, pose.station, &StationFactors::station);
+  return own == stations.end() ? 1.0 : own->factors[kind];
+}
 
 std::vector<Observation> observe(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
   std::vector<Observation> observations(poses.size());

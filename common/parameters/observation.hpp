@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -19,8 +20,21 @@ namespace demecal::inline parameters {
 /// The kinds of rows: position (points measured or touched), orientation, distance, in the order they stand in.
 inline constexpr std::size_t kPosition = 0, kOrientation = 1, kDistance = 2, kRowKinds = 3;
 
+/// By which the deviations of a station's rows differ from those of all, per kind.
+struct StationFactors {
+  std::string station;  ///< as MeasuredPose has it
+  std::array<double, kRowKinds> factors{};
+};
+
 /// Per kind: the standard deviation of its residuals (m, rad, m), 0 where a fit does not use it.
-using RowScales = std::array<double, kRowKinds>;
+struct RowScales : std::array<double, kRowKinds> {
+  std::vector<StationFactors> stations{};  ///< those that are not named scatter as all do
+
+  /// One where the pose's station is not named.
+  double factor(const MeasuredPose& pose, std::size_t kind) const;
+  /// Of the pose's own rows.
+  double of(const MeasuredPose& pose, std::size_t kind) const { return (*this)[kind] * factor(pose, kind); }
+};
 using RowCounts = std::array<int, kRowKinds>;
 
 /// One pose of a fit. Corrections and what the effects depend on do not change during a fit: they are known beforehand.

@@ -142,7 +142,7 @@ std::string station_noise_sentence(const std::vector<StationEntry>& stations) {
   }
   if (parts.empty()) return {};
   return fmt::format(
-      "Fitted poses scatter about the model by {} an axis; in the fit poses of all stations count alike.",
+      "Fitted poses scatter about the model by {} an axis; in the fit each station's poses weigh by their own scatter.",
       fmt::join(parts, ", "));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <string>
 #include <utility>
 
 #include "decompositions/decompositions.hpp"
@@ -148,12 +149,15 @@ void append_shared_errors(ModelColumns& columns, const SharedErrors& shared) {
   columns.shared = more;
 }
 
-/// The deviation of every kind of row that the least-squares residuals show, given the freedom their kind has left.
-RowScales rescaled_by_residuals(const DiagnosisProblem& problem, const Linearization& linearization,
-                                const RowScales& present) {
-  RowScales squares{}, freedom{};
+/// What the least-squares residuals of every station and kind show, given the freedom they have left. Data that name no
+/// stations are of one.
+StationSums sums_of_residuals(const DiagnosisProblem& problem, const Linearization& linearization,
+                              const RowScales& present) {
+  StationSums sums;
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
-    const RowCounts count = count_rows(problem.data.poses[linearization.fitted.poses[i]]);
+    const MeasuredPose& pose = problem.data.poses[linearization.fitted.poses[i]];
+    const RowCounts count = count_rows(pose);
+    auto& [squares, freedom] = sums[problem.data.stations.empty() ? std::string() : pose.station];
     Eigen::Index row = linearization.fitted.first_row[i];
     for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
       if (present[kind] <= 0) continue;
@@ -164,21 +168,16 @@ RowScales rescaled_by_residuals(const DiagnosisProblem& problem, const Lineariza
       }
     }
   }
-  RowScales scales{};
-  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
-    if (present[kind] <= 0) continue;
-    const double share = freedom[kind] > 1.0 ? squares[kind] / freedom[kind] : 1.0;
-    scales[kind] = std::max(kSmallestScale, present[kind] * std::sqrt(share));
-  }
-  return scales;
+  return sums;
 }
 
-bool scales_settled(const RowScales& before, const RowScales& after) {
-  constexpr double kSettled = 0.02;
-  for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
-    if (before[kind] > 0 && std::abs(after[kind] / before[kind] - 1.0) > kSettled) return false;
-  }
-  return true;
+/// Scales that were estimated together with the noise stay, but for how stations differ from one another.
+RowScales rescaled_by_residuals(const DiagnosisProblem& problem, const Linearization& linearization,
+                                const DiagnosedModel& model) {
+  if (model.noise_estimated && problem.data.stations.empty()) return model.scales;
+  RowScales scales = rescaled(sums_of_residuals(problem, linearization, model.scales), model.scales);
+  if (model.noise_estimated) std::ranges::copy(model.scales, scales.begin());
+  return scales;
 }
 
 void set_effect_errors(CorrectedRobot& robot, const Linearization& linearization) {
@@ -194,12 +193,12 @@ void set_effect_errors(CorrectedRobot& robot, const Linearization& linearization
 
 /// A start's scales, which its few gross errors cannot have driven up.
 RowScales starting_scales(const DiagnosisProblem& problem, const Fit& start) {
-  const RowScales median =
-      median_deviations(problem.data, start.robot, observe(problem.data, problem.fitted, start.robot));
+  const std::vector<Observation> observations = observe(problem.data, problem.fitted, start.robot);
+  const RowScales median = median_deviations(problem.data, start.robot, observations);
   RowScales scales{start.sigma_position_m, start.sigma_orientation_rad, start.sigma_distance_m};
   for (std::size_t kind = 0; kind < kRowKinds; ++kind)
     if (scales[kind] > 0.0) scales[kind] = std::max(kSmallestScale, std::min(scales[kind], median[kind]));
-  return scales;
+  return scales_of_stations(problem.data, start.robot, observations, scales);
 }
 
 }  // namespace
@@ -254,6 +253,7 @@ Linearization linearize_without(const DiagnosisProblem& problem, const Diagnosed
 }
 
 DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, int steps) {
+  constexpr double kSettled = 0.02;  ///< of a scale
   const DiagnosisProblem fitted_alone{problem.data, problem.declared, problem.fitted, {}};
   for (int step = 0; step < steps; ++step) {
     const Linearization linearization = linearize(fitted_alone, model);
@@ -263,9 +263,11 @@ DiagnosedModel refined(const DiagnosisProblem& problem, DiagnosedModel model, in
     model.robot.corrections = model.smooth.corrections();
     set_effect_errors(model.robot, linearization);
     const RowScales before = model.scales;
-    if (!model.noise_estimated) model.scales = rescaled_by_residuals(problem, linearization, model.scales);
+    model.scales = rescaled_by_residuals(problem, linearization, model);
     const double gained = (linearization.fitted.residual - linearization.errors).squaredNorm();
-    if (scales_settled(before, model.scales) && gained < 1e-4 * static_cast<double>(linearization.fitted.rows())) break;
+    if (scales_settled(before, model.scales, kSettled) &&
+        gained < 1e-4 * static_cast<double>(linearization.fitted.rows()))
+      break;
   }
   return model;
 }

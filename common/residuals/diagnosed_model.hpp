@@ -11,6 +11,7 @@
 #include "data/data_set.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/station_scales.hpp"
 #include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
@@ -21,15 +22,13 @@
 
 namespace demecal::inline residuals {
 
-inline constexpr double kSmallestScale = 1e-9;  ///< m or rad: exact data must not divide by zero
-
 /// One value of all the numbers of the model, and how measurements scatter about it.
 struct DiagnosedModel {
   CorrectedRobot robot;  ///< with its effects; corrections are those of `smooth`
   SmoothCorrections smooth;
   RowScales scales{};
   NoiseModel noise{};            ///< beyond independent noise of these scales
-  bool noise_estimated = false;  ///< together with the scales, which then stay as they are
+  bool noise_estimated = false;  ///< together with the scales, which then stay; stations still settle among each other
   Eigen::VectorXd precision{};   ///< of the smooth terms, where they are to stay as they were chosen; else empty
 };
 

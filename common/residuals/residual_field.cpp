@@ -93,7 +93,7 @@ std::vector<std::pair<Eigen::Index, double>> rows_used(const MeasuredPose& pose,
   Eigen::Index row = 0;
   for (std::size_t kind = 0; kind < kRowKinds; ++kind) {
     for (int i = 0; i < count[kind]; ++i, ++row) {
-      if (scales[kind] > 0) used.emplace_back(row, scales[kind]);
+      if (scales[kind] > 0) used.emplace_back(row, scales.of(pose, kind));
     }
   }
   return used;

@@ -151,6 +151,7 @@ TEST(Diagnose, TellsTheNoiseOfEachStation) {
   const std::string words = "scatter about the model by 0.";
   EXPECT_NE(ended.out.find(words), std::string::npos) << ended.out;
   EXPECT_NE(job.text("out/report.html").find(words), std::string::npos);
+  EXPECT_NE(job.text("out/report.html").find("weigh by their own scatter"), std::string::npos);
 }
 
 TEST(Diagnose, FitsTwoStationsAsOneAndKnowsThemAgain) {
