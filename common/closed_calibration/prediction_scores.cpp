@@ -131,12 +131,22 @@ class PredictionScores {
     std::iota(all.begin(), all.end(), std::size_t{0});
     interval_.noise_m = scatter[kPosition];
     interval_.distance_noise_m = scatter[kDistance];
+    for (const auto& [station, factors] : scatter.stations)
+      interval_.station_noise_m[station] = noise_of_station(station, scatter[kPosition] * factors[kPosition]);
     const std::optional<PureError> repeats = pure_error(data_, all);
     if (!repeats) return;
     by_repeats_ = true;
     interval_.noise_m = std::min(repeats->deviation_m, scatter[kPosition]);
     if (interval_.fitted)
       interval_.model_error_m = std::sqrt(std::pow(scatter[kPosition], 2) - std::pow(interval_.noise_m, 2));
+  }
+
+  double noise_of_station(const std::string& station, double scatter_m) const {
+    std::vector<std::size_t> own;
+    for (std::size_t pose = 0; pose < data_.poses.size(); ++pose)
+      if (data_.poses[pose].station == station) own.push_back(pose);
+    const std::optional<PureError> repeats = pure_error(data_, own);
+    return repeats ? std::min(repeats->deviation_m, scatter_m) : scatter_m;
   }
 
   /// |error| over its deviation.
@@ -199,7 +209,16 @@ class PredictionScores {
     const CappedMean of_unseen = capped_mean(unseen, most), of_seen = capped_mean(seen, most);
     const double error = std::sqrt(of_unseen.variance + of_seen.variance);
     const double usual = std::pow(normal_length_quantile(3, 0.5), 2) / 3.0;
-    return (of_unseen.mean - of_seen.mean + kErrors * error) / rising * middle / usual * std::pow(interval_.noise_m, 2);
+    return (of_unseen.mean - of_seen.mean + kErrors * error) / rising * middle / usual * unit_of_scores_m2();
+  }
+
+  /// What one of a score's square is worth, per axis; where stations differ the harmonic mean of their poses.
+  double unit_of_scores_m2() const {
+    if (interval_.station_noise_m.empty()) return std::pow(interval_.noise_m, 2);
+    double inverse = 0.0;
+    for (const ScoredPose& one : scored_)
+      inverse += 3.0 / noise_square_m2(interval_, data_.poses[one.pose]) / static_cast<double>(scored_.size());
+    return 1.0 / inverse;
   }
 
   const DataSet& data_;

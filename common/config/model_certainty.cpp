@@ -159,6 +159,15 @@ void read_posterior(const YamlNode& file, CalibratedModel& model) {
   model.posterior = std::move(posterior);
 }
 
+std::string station_noise_text(const PredictionInterval& interval) {
+  if (interval.station_noise_m.empty()) return {};
+  std::string text;
+  for (const auto& [station, noise_m] : interval.station_noise_m)
+    text += (text.empty() ? "{" : ", {") + (station.empty() ? "" : "station: " + yaml_text(station) + ", ") +
+            "noise_mm: " + millimetres_text(noise_m) + "}";
+  return ", station_noise: [" + text + "]";
+}
+
 std::string prediction_text(const CalibratedModel& model) {
   if (!model.interval) return {};
   const PredictionInterval& interval = *model.interval;
@@ -169,14 +178,15 @@ std::string prediction_text(const CalibratedModel& model) {
          ", distance_noise_mm: " + millimetres_text(interval.distance_noise_m) +
          ", model_error_mm: " + millimetres_text(interval.model_error_m) +
          ", poses: " + std::to_string(interval.poses) + ", gross_errors: " + std::to_string(interval.gross_errors) +
-         ", told_by: " + (interval.fitted ? "calibration" : "validation") + "}\n";
+         ", told_by: " + (interval.fitted ? "calibration" : "validation") + station_noise_text(interval) + "}\n";
 }
 
 void read_prediction(const YamlNode& file, CalibratedModel& model) {
   const YamlNode* node = file.find("prediction_interval");
   if (node == nullptr) return;
   constexpr int kMostPoses = 1'000'000'000;
-  node->with_keys({"quantile", "noise_mm", "distance_noise_mm", "model_error_mm", "poses", "gross_errors", "told_by"});
+  node->with_keys({"quantile", "noise_mm", "distance_noise_mm", "model_error_mm", "poses", "gross_errors", "told_by",
+                   "station_noise"});
   const auto length_m = [&](const char* key) { return metres(node->at(key).non_negative()); };
   const auto count = [&](const char* key) {
     return static_cast<std::size_t>(node->at(key).whole_number(0, kMostPoses));
@@ -189,6 +199,14 @@ void read_prediction(const YamlNode& file, CalibratedModel& model) {
                          .poses = count("poses"),
                          .gross_errors = count("gross_errors"),
                          .fitted = node->at("told_by").one_of<bool>({{"validation", false}, {"calibration", true}})};
+  if (const YamlNode* stations = node->find("station_noise")) {
+    for (const YamlNode& one : stations->list()) {
+      one.with_keys({"station", "noise_mm"});
+      const YamlNode* station = one.find("station");
+      model.interval->station_noise_m[station != nullptr ? station->text() : std::string()] =
+          metres(one.at("noise_mm").non_negative());
+    }
+  }
 }
 
 }  // namespace demecal::inline config

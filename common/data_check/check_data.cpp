@@ -114,8 +114,12 @@ class DataChecker {
 
   void note_motion(TrialFit& placed, double most_m) {
     CheckedRows rows{whole_, trial_};
-    if (auto motion = find_taken_in_motion(data_, most_m, rows, placed, fit_))
-      go_on_with(std::move(rows), std::move(*motion));
+    auto motion = find_taken_in_motion(data_, most_m, rows, placed, fit_);
+    if (!motion) return;
+    // Further off than any arm is: a fit to what was recorded would be of no arm.
+    if (motion->as_given_mm > millimetres(kImplausibleShare * trial_.reach_m()))
+      motion->kind = FindingKind::taken_on_the_way;
+    go_on_with(std::move(rows), std::move(*motion));
   }
 
   void go_on_with(CheckedRows rows, Finding finding) {

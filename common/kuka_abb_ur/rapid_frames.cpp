@@ -101,7 +101,7 @@ void RapidFrames::forget_assigned(const std::string& word, std::size_t begin, st
   if (declared_.contains(begin)) return;
   const std::string_view code = text_.code();
   const std::string_view rest = code.substr(text_.skip_spaces(end));
-  const bool argument_name = begin > 0 && code[begin - 1] == '\\';  // such as \WObj:=
+  const bool argument_name = text_.option_sign(begin) != std::string_view::npos;  // such as \WObj:=
   if (!argument_name && (rest.starts_with(":=") || rest.starts_with('.'))) changed_.insert(word);
   if (word == "setdataval") {  // by names that may be computed
     for (const auto* data : {&tools_, &frames_}) {
@@ -173,7 +173,9 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
   }
   set_tool(use.frames, known_tool(tool, begin));
   const std::string all = lower_case(code.substr(end, ends.back() - end));
-  const std::size_t option = all.find("\\wobj");
+  std::size_t option = all.find("wobj");
+  while (option != std::string::npos && text_.option_sign(end + option) == std::string_view::npos)
+    option = all.find("wobj", option + 1);
   if (option != std::string::npos) {
     const std::size_t sign = all.find(":=", option);
     const std::size_t name = sign == std::string::npos ? ends.back() : text_.skip_spaces(end + sign + 2);

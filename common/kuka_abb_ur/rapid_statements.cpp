@@ -168,10 +168,12 @@ void RapidStatements::read_motion(std::size_t end, std::size_t targets) {
 
 void RapidStatements::read_guidance(std::size_t begin, std::size_t end) {
   const std::string word = text_.word_at(begin);
-  if ((word != "corr" && word != "track") || begin == 0 || code_[begin - 1] != '\\') return;
+  if (word != "corr" && word != "track") return;
+  const std::size_t sign = text_.option_sign(begin);
+  if (sign == std::string_view::npos) return;
   const std::size_t first = code_.substr(0, begin).rfind(';') + 1;  // npos + 1: the text's begin
   const std::size_t last = std::min(code_.find(';', begin), code_.size());
-  const std::string by(code_.substr(begin - 1, end - begin + 1));
+  const std::string by = '\\' + std::string(code_.substr(begin, end - begin));
   for (std::size_t at = first; at < last; ++at) {
     if (!text_.begins_word(at)) continue;
     const std::size_t word_end = text_.word_end(at);

@@ -71,10 +71,10 @@ CommandModel to_command_model(const CalibratedModel& model, const std::optional<
   commands.interval = model.interval;
   const bool corrected = !std::ranges::all_of(commands.robot.corrections, &JointCorrection::is_neutral);
   if (!model.data_findings.empty() && contradicts(model.data_findings.front()))
-    commands.notes.emplace_back("the data that the model was made from contradict the arm (" +
-                                model.data_findings.front() +
-                                "): unless that is known to be wrong, do not correct programs; data_check in the "
-                                "model's report.json says what would fit");
+    commands.notes.insert(commands.notes.begin(),
+                          "the data that the model was made from contradict the arm (" + model.data_findings.front() +
+                              "): unless that is known to be wrong, do not correct programs; data_check in the "
+                              "model's report.json says what would fit");
   if (!model.approach_recorded && (corrected || !commands.robot.effects.empty()))
     commands.notes.emplace_back(
         "the model was measured without the sides that joints came from (no approach columns, or one side only): lost "

@@ -167,7 +167,9 @@ double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& p
   const double larger = pose.position_whitening
                             ? (*pose.position_whitening * pose.position_whitening->transpose()).inverse().trace() / 3.0
                             : 1.0;
-  return axes * (larger * std::pow(interval.noise_m, 2) + model_error_m2);
+  const auto own = interval.station_noise_m.find(pose.station);
+  const double noise_m = own == interval.station_noise_m.end() ? interval.noise_m : own->second;
+  return axes * (larger * std::pow(noise_m, 2) + model_error_m2);
 }
 
 double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints) {
@@ -185,10 +187,13 @@ double extrapolation(const Chain& chain, std::span<const Interval> measured, con
 
 double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                   const DataSet& data, const MeasuredPose& pose, double widened) {
-  PredictionInterval model_alone = interval;
+  PredictionInterval there = interval;
+  if (data.stations.empty()) there.station_noise_m.clear();  // whoever measured it is none of them
+  PredictionInterval model_alone = there;
   model_alone.noise_m = model_alone.distance_noise_m = 0.0;
+  model_alone.station_noise_m.clear();
   const double model_m2 = posterior_square_m2(posterior, robot, data, pose) + noise_square_m2(model_alone, pose);
-  const double noise_m2 = noise_square_m2(interval, pose) - noise_square_m2(model_alone, pose);
+  const double noise_m2 = noise_square_m2(there, pose) - noise_square_m2(model_alone, pose);
   return interval.quantile * std::sqrt(widened * widened * model_m2 + noise_m2);
 }
 

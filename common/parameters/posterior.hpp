@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -76,6 +77,8 @@ struct PredictionInterval {
   std::size_t poses = 0;          ///< behind the quantile, repeats of one pose counted once
   std::size_t gross_errors = 0;   ///< poses left out of it as far out
   bool fitted = false;            ///< the poses behind it are those of the fit: no others were there
+  /// In place of noise_m, at poses of the stations that it names; the first one's name is empty.
+  std::map<std::string, double> station_noise_m{};
 };
 
 /// What intervals hold.
@@ -104,7 +107,8 @@ double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& p
 /// seen there: the growth is a judgement, not a measurement.
 double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints);
 
-/// The radius that holds 95 % of the tool errors measured at that pose, m. Its measurement noise is in it; all else is
+/// The radius that holds 95 % of the tool errors measured at that pose, m. Its measurement noise is in it (that of all
+/// stations, where `data` are of one: another one's than the model's, perhaps); all else is
 /// `widened` times as large (see extrapolation()).
 double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                   const DataSet& data, const MeasuredPose& pose, double widened = 1.0);

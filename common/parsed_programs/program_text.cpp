@@ -224,6 +224,12 @@ char ProgramText::next(std::size_t offset) const {
   return offset < code_.size() ? code_[offset] : '\0';
 }
 
+std::size_t ProgramText::option_sign(std::size_t begin) const {
+  if (begin == 0) return std::string_view::npos;
+  const std::size_t before = code_.find_last_not_of(" \t\r\n", begin - 1);
+  return before != std::string_view::npos && code_[before] == '\\' ? before : std::string_view::npos;
+}
+
 std::string ProgramText::word_at(std::size_t offset) const {
   const std::size_t begin = skip_spaces(offset);
   return lower_case(code_.substr(begin, word_end(begin) - begin));

@@ -103,6 +103,9 @@ class ProgramText {
   std::string_view trimmed(std::size_t& begin, std::size_t end) const;
   /// The first byte at or after `offset` that is no white space; 0 at the end.
   char next(std::size_t offset) const;
+  /// Where the backslash stands that makes an option of the word at `begin` (RAPID), white space between them or not;
+  /// npos: it is none.
+  std::size_t option_sign(std::size_t begin) const;
   /// The word at or after `offset`, in small letters; empty where something else comes next.
   std::string word_at(std::size_t offset) const;
 

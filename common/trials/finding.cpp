@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 35> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 36> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -33,6 +33,7 @@ constexpr std::array<KindRow, 35> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::computed_positions, "computed_positions", false},
                                           {FindingKind::coarse_values, "coarse_values", false},
                                           {FindingKind::taken_in_motion, "taken_in_motion", false},
+                                          {FindingKind::taken_on_the_way, "taken_on_the_way", true},
                                           {FindingKind::drift_without_times, "drift_without_times", false},
                                           {FindingKind::wrong_axes, "wrong_axes", false},
                                           {FindingKind::set_in_other_frame, "set_in_other_frame", false},

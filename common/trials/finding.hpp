@@ -44,6 +44,7 @@ enum class FindingKind {
   many_outliers,
   implausible_link,
   implausible_payload,
+  taken_on_the_way,
   other_robot
 };
 

@@ -163,7 +163,7 @@ double gain_beyond_others(const Trial& trial, const TrialFit& fit, const Segment
   double least = std::numeric_limits<double>::infinity();
   for (const DriftShape& shape : drift_shapes())
     least = std::min(least, projected.gain_beyond(step, drift_columns(trial, shape)));
-  if (shift_m < kMostByConditions * trial.reach_m())
+  if (shift_m < most_by_conditions(trial) * trial.reach_m())
     least = std::min(least, projected.gain_beyond(step, condition_columns(trial, fit)));
   const double sharper = fit.deviation_m / deviation_m;
   return sharper * sharper * least;

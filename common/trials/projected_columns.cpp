@@ -92,4 +92,15 @@ Eigen::MatrixXd condition_columns(const Trial& trial, const TrialFit& fit) {
   return columns;
 }
 
+double most_by_conditions(const Trial& trial) {
+  constexpr double kBySide = 3e-3, kPerNm = 4e-5, kPerKelvin = 1e-4, kGravity = 9.81;
+  const auto span = [&](auto condition) {
+    const auto [least, most] = std::ranges::minmax(trial.rows | std::views::transform(condition));
+    return most - least;
+  };
+  const bool sides = std::ranges::any_of(trial.rows, [](const TrialRow& row) { return row.sides.size() > 0; });
+  return (sides ? kBySide : 0.0) + kPerNm * kGravity * trial.reach_m() * span(&TrialRow::payload_kg) +
+         kPerKelvin * span(&TrialRow::temperature_celsius);
+}
+
 }  // namespace demecal::inline trials

@@ -55,8 +55,9 @@ Eigen::MatrixXd joint_columns(const Trial& trial, const TrialFit& fit, const Fac
 /// a measurement show lost motion as the zero of a joint, and payloads show elasticity so.
 Eigen::MatrixXd condition_columns(const Trial& trial, const TrialFit& fit);
 
-/// Share of a turn (rad) or of the reach, to which an arm may err by such conditions.
-inline constexpr double kMostByConditions = 0.01;
+/// How far a joint may be turned by such conditions, rad, as far as rows differ in them: 3 mrad by lost motion, 40
+/// microrad per Nm of the heaviest payload at full reach, 0.1 mrad per kelvin.
+double most_by_conditions(const Trial& trial);
 
 /// Nats that something systematic must gain, for each row of a pose.
 inline constexpr double kNotableGain = 20.0;

@@ -144,7 +144,7 @@ std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit) 
       jump.move.shift_m < std::max(kJumpDeviations * jump.fit.deviation_m, kSmallestShift_m) ||
       jump.move.if_changed_m > kJumpFall * jump.move.as_given_m || over_drift < kGainOverDrift * fit.rows_per_pose)
     return std::nullopt;
-  if (std::abs(jump.move.by) > kMostByConditions) return jump;
+  if (std::abs(jump.move.by) > most_by_conditions(trial)) return jump;
   const Eigen::VectorXd behind = from_row(joint_column(trial, fit, start.joint), start.row);
   const double beyond = sharper * sharper * projected.gain_beyond(behind, condition_columns(trial, fit));
   if (beyond < kGainOverDrift * fit.rows_per_pose) return std::nullopt;

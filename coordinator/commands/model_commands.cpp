@@ -171,6 +171,7 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
   CheckedData checked = load_checked(request.data_files, StationTools::own, request.force);
   const DataSet& data = checked.data;
   if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
+  if (request.refit_base && !model.fleet) require_same_arm(model.robot, data);
   // A fleet stands nowhere: base and tool are those of the data.
   const CorrectedRobot robot = request.refit_base || model.fleet
                                    ? registered(model, data)

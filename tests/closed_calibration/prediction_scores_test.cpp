@@ -4,8 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
 #include "calibration/erring_arm.hpp"
 #include "closed_calibration/closing.hpp"
+#include "fitting/stations.hpp"
 
 namespace demecal {
 namespace {
@@ -84,6 +91,37 @@ TEST(PredictionInterval, HoldsThemWithFewPosesAndWithoutValidationPoses) {
   EXPECT_LT(few, 0.98);
   EXPECT_GT(none, 0.93);
   EXPECT_LT(none, 0.97);
+}
+
+TEST(PredictionInterval, IsOfThePosesOwnStation) {
+  std::map<std::string, int> inside, accept;
+  std::map<std::string, double> radius_m;
+  for (std::uint64_t seed = 2200; seed < 2220; ++seed) {
+    DataSet fine = judged_arm(60, 39, {.sigma_m = 5e-5}, seed),
+            coarse = judged_arm(60, 39, {.sigma_m = 4e-4}, seed + 50);
+    fine.name = "fine";
+    coarse.name = "coarse";
+    fine.sha256 = "of fine";
+    coarse.sha256 = "of coarse";
+    const DataSet data = joined_stations({fine, coarse}, StationTools::own);
+    const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
+    const CorrectedRobot robot = fit_declared(data, calibration, kIntervalDeclared, nominal_robot(data)).robot;
+    const FittedPosterior fitted = fitted_posterior(data, kIntervalDeclared, robot, calibration);
+    const PredictionInterval interval = prediction_interval(data, fitted, robot);
+    for (const std::size_t pose : poses_of(data, PoseSet::accept)) {
+      const std::string& station = data.poses[pose].station;
+      const double radius = radius95_m(interval, fitted.posterior, robot, data, data.poses[pose]);
+      inside[station] += tool_error_m(robot, data, data.poses[pose]) <= radius ? 1 : 0;
+      ++accept[station];
+      radius_m[station] += radius / 60.0 / 20.0;
+    }
+  }
+  for (const std::string station : {"", "coarse"}) {
+    const double share = static_cast<double>(inside[station]) / accept[station];
+    EXPECT_GT(share, 0.92) << station;
+    EXPECT_LT(share, 0.985) << station;
+  }
+  EXPECT_LT(radius_m[""], 0.5 * radius_m["coarse"]);
 }
 
 TEST(PredictionInterval, IsNotWidenedByGrossErrorsAndCountsThem) {

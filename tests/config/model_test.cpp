@@ -138,11 +138,10 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   posterior.terms = {{1, {wave(1.0, 2.0, 0.3), {}, {-0.5, 0.75}}}};
   posterior.ids.push_back({.kind = ParameterId::Kind::base_rotation, .index = 1});
   posterior.factor = Eigen::MatrixXd::Zero(5, 5);
-  for (Eigen::Index row = 0; row < 5; ++row) {
+  for (Eigen::Index row = 0; row < 5; ++row)
     for (Eigen::Index column = 0; column <= row; ++column) posterior.factor(row, column) = stream.normal() * 1e-4;
-  }
   model.posterior = posterior;
-  model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true};
+  model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true, {{"", 2e-5}, {"B: door", 1e-3}}};
   for (int joint = 0; joint < 6; ++joint) model.measured.push_back({stream.real(-2, 0), stream.real(0, 2)});
   const CalibratedModel read = written_and_read(model);
   ASSERT_TRUE(read.posterior && read.interval);
@@ -153,6 +152,7 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   EXPECT_EQ(read.interval->poses, 30U);
   EXPECT_EQ(read.interval->gross_errors, 2U);
   EXPECT_TRUE(read.interval->fitted);
+  EXPECT_DOUBLE_EQ(read.interval->station_noise_m.at("") + 2 * read.interval->station_noise_m.at("B: door"), 2.02e-3);
   EXPECT_EQ(read.posterior->ids, posterior.ids);
   ASSERT_EQ(read.posterior->terms.size(), 1u);
   EXPECT_EQ(read.posterior->terms[0].joint, 1);

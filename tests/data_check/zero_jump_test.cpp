@@ -107,5 +107,18 @@ TEST(ZeroJump, WhatChangesWithTheSideOfApproachOrThePayloadIsNone) {
   }
 }
 
+TEST(ZeroJump, WhatIsMoreThanAPayloadDoesIsNamedThoughThePayloadChangesThere) {
+  for (const DataSet& right : long_measurements(16)) {
+    DataSet data = right;
+    for (std::size_t i = 0; i < data.poses.size(); ++i) {
+      const bool behind = i >= data.poses.size() / 2;
+      data.poses[i].payload_kg = behind ? 2.0 : 0.0;
+      if (behind) data.poses[i].joints[1] += radians(0.3);
+    }
+    EXPECT_TRUE(check_data(data).has(FindingKind::joint_zero_changed)) << data.robot.name << '\n'
+                                                                       << told(check_data(data));
+  }
+}
+
 }  // namespace
 }  // namespace demecal

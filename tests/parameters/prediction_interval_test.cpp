@@ -78,5 +78,17 @@ TEST(NoiseSquare, IsThatOfThePosesOwnUncertainty) {
   EXPECT_NEAR(noise_square_m2(interval, pose), 9e-8 + 3.0 * 9e-10, 1e-16);
 }
 
+TEST(NoiseSquare, IsThatOfThePosesStation) {
+  PredictionInterval interval;
+  interval.noise_m = 1e-4;
+  interval.model_error_m = 3e-5;
+  interval.station_noise_m = {{"coarse", 4e-4}};
+  MeasuredPose pose;
+  pose.station = "fine";
+  EXPECT_NEAR(noise_square_m2(interval, pose), 3.0 * (1e-8 + 9e-10), 1e-16);
+  pose.station = "coarse";
+  EXPECT_NEAR(noise_square_m2(interval, pose), 3.0 * (16e-8 + 9e-10), 1e-16);
+}
+
 }  // namespace
 }  // namespace demecal

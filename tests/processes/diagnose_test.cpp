@@ -182,6 +182,25 @@ TEST(Diagnose, FitsTwoStationsAsOneAndKnowsThemAgain) {
   }
 }
 
+TEST(Evaluate, RefusesTargetsThatTheModelLacks) {
+  const SmallJob job(20, 2, kBacklash);
+  const Ended ended = run("demecal", diagnose(job, "out", {}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  std::istringstream poses(job.text("data/poses.csv"));
+  std::string table, line;
+  while (std::getline(poses, line)) table += line + (table.empty() ? ",seen" : ",T9") + '\n';
+  std::ofstream(job.path("data/poses.csv")) << table;
+  std::string data = job.text("data/dataset.yaml");
+  const std::size_t columns = data.find("\ncolumns:\n");
+  ASSERT_NE(columns, std::string::npos) << data;
+  std::ofstream(job.path("data/dataset.yaml")) << data.insert(columns + 10, "  target: seen\n");
+  for (const char* option : {"--refit-base", "--force"}) {
+    const Ended asked = run("demecal", {"evaluate", job.path("out/model.yaml"), job.data(), option});
+    EXPECT_EQ(asked.code, 11) << option << asked.err;
+    EXPECT_NE(asked.err.find("is a target that the model has no tool for"), std::string::npos) << asked.err;
+  }
+}
+
 TEST(Diagnose, PrintsItsReportAsJson) {
   const SmallJob job;
   const Ended ended = run("demecal", diagnose(job, "out", {"--json", "--candidates", "backlash"}));

@@ -88,6 +88,8 @@ TEST(RapidFrames, ThatAreComputedOrUnknownAreSaid) {
   const auto frame = [&](const std::string& text) { return only_target(WrittenIn::rapid, text).frames.unknown_frame; };
   EXPECT_THAT(frame(point + "MoveL p,v1,fine,tool0\\WObj:=elsewhere;\n"),
               HasSubstr("elsewhere is given neither in this program nor by --frames"));
+  EXPECT_THAT(frame(point + "MoveL p,v1,fine,tool0 \\ WObj := elsewhere;\n"),
+              HasSubstr("elsewhere is given neither in this program nor by --frames"));
   EXPECT_THAT(frame("VAR wobjdata w;\n" + point + "MoveL p,v1,fine,tool0\\WObj:=w;\n"), HasSubstr("is computed"));
   EXPECT_THAT(frame("PERS " + object + point + "w.uframe.trans.x:=3;\nMoveL p,v1,fine,tool0\\WObj:=w;\n"),
               HasSubstr("is computed"));

@@ -66,7 +66,8 @@ TEST(Rapid, LeavesPointsThatAreDisplaced) {
 TEST(Rapid, LeavesPointsWhereSensorsShiftTheMotion) {
   const std::string before = "MoveJ pA,v9,fine,tool0;\n";
   for (const char* guided : {"MoveL pA,v9,fine,tool0\\Corr;\n", "MoveL pA\\ID:=5,v9,fine,tool0\\WObj:=wobj0\\Corr;\n",
-                             "TriggL pA,v9,gunon,fine,tool0\\Corr;\n"}) {
+                             "TriggL pA,v9,gunon,fine,tool0\\Corr;\n", "MoveL pA,v9,fine,tool0\\ Corr;\n",
+                             "MoveL pA,v9,fine,tool0 \\\n  Corr;\n"}) {
     EXPECT_THAT(of_rapid(guided), AllOf(StartsWith("left: line 8 moves to it with \\"), HasSubstr("by which sensors")))
         << guided;
     EXPECT_THAT(of_rapid(before + guided), AllOf(StartsWith("left:"), HasSubstr("by which sensors"))) << guided;
