@@ -193,7 +193,8 @@ TEST(Evaluate, RefusesTargetsThatTheModelLacks) {
   std::string data = job.text("data/dataset.yaml");
   const std::size_t columns = data.find("\ncolumns:\n");
   ASSERT_NE(columns, std::string::npos) << data;
-  std::ofstream(job.path("data/dataset.yaml")) << data.insert(columns + 10, "  target: seen\n");
+  std::ofstream(job.path("data/dataset.yaml"))
+      << data.insert(columns + 10, "  target: seen\n") << "\ntools_mm:\n  T9: [1, 2, 3]\n";
   for (const char* option : {"--refit-base", "--force"}) {
     const Ended asked = run("demecal", {"evaluate", job.path("out/model.yaml"), job.data(), option});
     EXPECT_EQ(asked.code, 11) << option << asked.err;

@@ -67,13 +67,14 @@ TEST(Rapid, LeavesPointsWhereSensorsShiftTheMotion) {
   const std::string before = "MoveJ pA,v9,fine,tool0;\n";
   for (const char* guided : {"MoveL pA,v9,fine,tool0\\Corr;\n", "MoveL pA\\ID:=5,v9,fine,tool0\\WObj:=wobj0\\Corr;\n",
                              "TriggL pA,v9,gunon,fine,tool0\\Corr;\n", "MoveL pA,v9,fine,tool0\\ Corr;\n",
-                             "MoveL pA,v9,fine,tool0 \\\n  Corr;\n"}) {
+                             "MoveL pA,v9,fine,tool0 \\\tCorr;\n"}) {
     EXPECT_THAT(of_rapid(guided), AllOf(StartsWith("left: line 8 moves to it with \\"), HasSubstr("by which sensors")))
         << guided;
     EXPECT_THAT(of_rapid(before + guided), AllOf(StartsWith("left:"), HasSubstr("by which sensors"))) << guided;
     EXPECT_EQ(of_rapid(guided, "pB"), of_rapid("", "pB")) << guided;
     EXPECT_EQ(of_rapid(guided, "jA"), of_rapid("", "jA")) << guided;
   }
+  EXPECT_THAT(of_rapid("MoveL pA,v9,fine,tool0 \\\n  Corr;\n"), StartsWith("left: line 9 moves to it with \\Corr"));
   EXPECT_THAT(of_rapid("ArcL pA,v9,sm1,wd1,fine,tool0\\Track:=tr1;\n"), StartsWith("left:"));
   // Numbers in the motion itself.
   const std::string point = rapid_point("pA"),
