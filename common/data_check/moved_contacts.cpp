@@ -22,10 +22,11 @@
 namespace demecal::inline data_check {
 namespace {
 
-constexpr std::size_t kFewestOfPlace = 3;  ///< poses that tell where a contact is
-constexpr double kSlipOverScatter = 3.0;   ///< of the distance between both places over the rms distance from them
-constexpr double kLeastSlip_m = 1e-4;      ///< what wear of a ball or socket may be
-constexpr double kStepOverSlope = 0.5;     ///< squares that a step leaves over those that a steady motion does
+constexpr std::size_t kFewestOfPlace = 3;   ///< poses that tell where a contact is
+constexpr double kSlipOverScatter = 3.0;    ///< of the distance between both places over the rms distance from them
+constexpr double kLeastSlip_m = 1e-4;       ///< what wear of a ball or socket may be
+constexpr double kStepOverSlope = 0.5;      ///< squares that a step leaves over those that a steady motion does
+constexpr double kStepOverCondition = 0.5;  ///< the same over those that lost motion or elasticity would
 
 using Points = std::vector<Eigen::Vector3d>;
 
@@ -77,12 +78,39 @@ double left_by_steady_motion_m2(const Points& points) {
   return std::max(0.0, all.left() - along.squaredNorm() / squares);
 }
 
-std::optional<Step> slip_of(const Points& points) {
+/// What means of their own leave of the squares of the points that a condition divides.
+double left_by_condition_m2(const Points& points, const std::vector<double>& condition) {
+  std::map<double, PointSums> levels;
+  for (std::size_t i = 0; i < points.size(); ++i) levels[condition[i]].add(points[i]);
+  double left_m2 = 0.0;
+  for (const auto& [level, sums] : levels) left_m2 += sums.left();
+  return levels.size() == 2 ? left_m2 : std::numeric_limits<double>::infinity();
+}
+
+/// What the file states of the poses and what may move the arm between two of its states: each joint's side of
+/// approach, and the payload.
+std::vector<std::vector<double>> conditions_of(const DataSet& data, const std::vector<std::size_t>& poses) {
+  std::vector<std::vector<double>> conditions;
+  const auto take = [&](auto value) {
+    std::vector<double>& values = conditions.emplace_back();
+    for (const std::size_t pose : poses) values.push_back(value(data.poses[pose]));
+  };
+  for (int joint = 0; joint < data.robot.chain.size(); ++joint)
+    take([joint](const MeasuredPose& pose) { return pose.approach ? (*pose.approach)[joint] : 0.0; });
+  take([](const MeasuredPose& pose) { return pose.payload_kg.value_or(0.0); });
+  return conditions;
+}
+
+std::optional<Step> slip_of(const Points& points, const std::vector<std::vector<double>>& conditions) {
   if (points.size() < 2 * kFewestOfPlace + 1) return std::nullopt;
   const Step step = best_step(points);
   const double scatter_m = std::sqrt(step.left_m2 / static_cast<double>(points.size() - 2));
   if (step.shift_m < std::max(kLeastSlip_m, kSlipOverScatter * scatter_m)) return std::nullopt;
   if (step.left_m2 > kStepOverSlope * left_by_steady_motion_m2(points)) return std::nullopt;
+  const auto explains_it = [&](const std::vector<double>& condition) {
+    return step.left_m2 > kStepOverCondition * left_by_condition_m2(points, condition);
+  };
+  if (std::ranges::any_of(conditions, explains_it)) return std::nullopt;
   return step;
 }
 
@@ -94,7 +122,7 @@ std::vector<MovedContact> find_moved_contacts(const DataSet& data, const Correct
     if (data.contacts.form_of(group.contact).kind != ContactKind::point) continue;
     Points points;
     for (const std::size_t pose : members) points.push_back(touch_of(robot, data.poses[pose]).point_m);
-    const std::optional<Step> slip = slip_of(points);
+    const std::optional<Step> slip = slip_of(points, conditions_of(data, members));
     if (!slip) continue;
     const auto first = members.begin() + static_cast<std::ptrdiff_t>(slip->first);
     found.push_back({group, {first, members.end()}, slip->shift_m});

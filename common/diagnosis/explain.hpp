@@ -48,8 +48,8 @@ std::vector<Round> judged_together(const LoopEnd& end, const DiagnosedModel& mod
 /// The front of sets of effects about the model, and the model that is chosen from it. `search`: without variations
 /// only what is left of the model without some of its causes. A set that evolution found stands in the place of one of
 /// these where it is shorter by as much as tells rivals apart and errs less on the validation poses; sets that fewer
-/// causes describe as well are no part of the front. Effects that are new are judged together; where the model is behind the present one on the validation
-/// poses without those that fail, evolution's sets are not used.
+/// causes describe as well are no part of the front. Effects that are new are judged together; where the model is
+/// behind the present one on the validation poses without those that fail, evolution's sets are not used.
 Explained explained(const LoopEnd& end, const ExplanationSearch& search, const RandomStream& random,
                     const std::function<bool(const Round&)>& watch);
 

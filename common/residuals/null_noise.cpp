@@ -191,8 +191,8 @@ Eigen::MatrixXd NullResiduals::draw(Eigen::Index count, RandomStream& random) co
     random.normals({others.col(i).data(), static_cast<std::size_t>(others.rows())});
     beliefs.col(i) = noise_.draw_beliefs(random);
   }
-  const Eigen::MatrixXd along = basis_.transpose() * rows + others_root_ * others +
-                                noise_.model_.prior_basis().transpose() * beliefs;
+  const Eigen::MatrixXd along =
+      basis_.transpose() * rows + others_root_ * others + noise_.model_.prior_basis().transpose() * beliefs;
   Eigen::MatrixXd left = rows - basis_ * along;
   for (Eigen::Index i = 0; i < count; ++i) {
     const double whole = squares_ + beliefs.col(i).squaredNorm() - along.col(i).squaredNorm();

@@ -41,8 +41,8 @@ class NullNoise {
   Eigen::VectorXd belief_deviations_;                    ///< one per row of beliefs
 };
 
-/// What the model leaves of such draws in some of the poses. What the others tell of the model's numbers is drawn as one
-/// normal vector where there are many of them (central limit theorem).
+/// What the model leaves of such draws in some of the poses. What the others tell of the model's numbers is drawn as
+/// one normal vector where there are many of them (central limit theorem).
 class NullResiduals {
  public:
   /// `poses` of the field, by number, ascending. Keeps the noise by reference.

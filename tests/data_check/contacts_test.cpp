@@ -222,6 +222,19 @@ TEST(CheckContacts, TakesASteadyDriftForNoStep) {
   for (const Finding& finding : check_data(data).findings) EXPECT_NE(finding.kind, FindingKind::contact_moved);
 }
 
+TEST(CheckContacts, TakesLostMotionBetweenStatedSidesForNoStep) {
+  DataSet data = socket_data(9324);
+  for (std::size_t i = 0; i < data.poses.size(); ++i) {
+    MeasuredPose& pose = data.poses[i];
+    const double side = pose.contact == "left-0" && i % 15 < 7 ? 1.0 : -1.0;
+    pose.joints[1] += 6e-4 * side;
+    pose.approach = ApproachSigns::Constant(pose.joints.size(), side);
+  }
+  EXPECT_FALSE(check_data(data).has(FindingKind::contact_moved));
+  for (MeasuredPose& pose : data.poses) pose.approach.reset();
+  EXPECT_TRUE(check_data(data).has(FindingKind::contact_moved)) << "nothing is stated that explains it";
+}
+
 TEST(CheckContacts, NamesJointsThatWereComputedAndNotRead) {
   for (const double play_m : {0.0, kPlay_m}) {
     RandomStream stream{9324};
