@@ -75,9 +75,8 @@ class Planning {
     if (request_.measured) known += model_.information_of(*request_.measured);
     const Design empty(stacked_rows(model_, candidates_), model_.rows_per_pose(), known, workspace.weight());
     const Design design = request_.accuracy_m ? smallest_reaching(empty) : of_size(empty, most_);
-    std::vector<PlannedPose> chosen;
-    for (const std::size_t i : design.chosen()) chosen.push_back(candidates_[i]);
-    const RefinedPoses refined_poses = refined(model_, space_, std::move(chosen), known, workspace.weight(), stream(5));
+    RefinedPoses refined_poses = refined_design(design, known, workspace);
+    if (request_.accuracy_m) use_fewer(empty, known, workspace, refined_poses);
     take(refined_poses, workspace);
     bound(refined_poses.poses, known, workspace);
     draw_curve(empty, workspace, refined_poses.poses.size());
@@ -183,6 +182,29 @@ class Planning {
     return best;
   }
 
+  RefinedPoses refined_design(const Design& design, const Eigen::MatrixXd& known, const Workspace& workspace) const {
+    std::vector<PlannedPose> chosen;
+    for (const std::size_t i : design.chosen()) chosen.push_back(candidates_[i]);
+    return refined(model_, space_, std::move(chosen), known, workspace.weight(), stream(5));
+  }
+
+  /// The fewest poses that do once they are refined, looked for by halving: further ones were needed on candidates.
+  void use_fewer(const Design& empty, const Eigen::MatrixXd& known, const Workspace& workspace,
+                 RefinedPoses& enough) const {
+    constexpr double kLeastShare = 0.6;
+    int least = static_cast<int>(kLeastShare * static_cast<double>(enough.poses.size()));
+    least = std::max(least, fewest_poses(model_) - 1);
+    while (static_cast<int>(enough.poses.size()) > least + 1) {
+      const int between = (least + static_cast<int>(enough.poses.size())) / 2;
+      RefinedPoses fewer = refined_design(of_size(empty, between), known, workspace);
+      if (workspace.predicted(fewer.covariance).rms_m <= *request_.accuracy_m) {
+        enough = std::move(fewer);
+      } else {
+        least = between;
+      }
+    }
+  }
+
   void take(const RefinedPoses& refined_poses, const Workspace& workspace) {
     plan_.noise_m = model_.model().noise_m;
     plan_.effects = model_.model().effects;
@@ -203,6 +225,7 @@ class Planning {
     Design greedy = first_at_sockets(empty);
     RandomStream random = stream(4);
     const int step = std::max(1, last / kPoints);
+    double refinement = 1.0;  // what the plan has over as many poses chosen one by one
     for (int poses = static_cast<int>(greedy.chosen().size()) + 1; poses <= last; ++poses) {
       if (!greedy.add_best()) break;
       const bool shown = poses == static_cast<int>(chosen) || (poses >= fewest_poses(model_) && poses % step == 0);
@@ -221,9 +244,14 @@ class Planning {
       }
       if (poses == static_cast<int>(chosen)) {
         plan_.random_rms_m = point.random_rms_m;
-        point.planned = plan_.predicted;
+        refinement = plan_.predicted.rms_m / point.planned.rms_m;
       }
       plan_.curve.push_back(point);
+    }
+    for (CurvePoint& point : plan_.curve) {
+      PredictedError& error = point.planned;
+      error = {refinement * error.rms_m, refinement * error.mean_m, refinement * error.p95_m};
+      if (point.poses == static_cast<int>(chosen)) error = plan_.predicted;
     }
   }
 

@@ -97,6 +97,10 @@ TEST(Plan, BeatsAsManyRandomPosesAndReachesTheAccuracyAskedFor) {
   const Plan more = make_plan(request);
   EXPECT_LE(more.predicted.rms_m, *request.accuracy_m);
   EXPECT_GT(more.counts[0], 20u);
+  request.accuracy_m = plan.predicted.rms_m;
+  EXPECT_LE(make_plan(request).counts[0], 21U) << "20 poses do";
+  for (std::size_t i = 1; i < plan.curve.size(); ++i)
+    EXPECT_LT(plan.curve[i].planned.rms_m, plan.curve[i - 1].planned.rms_m) << plan.curve[i].poses;
   request.accuracy_m = 1e-7;
   EXPECT_THROW(make_plan(request), InputError);
 }
