@@ -48,7 +48,9 @@ class NullResiduals {
   /// `poses` of the field, by number, ascending. Keeps the noise by reference.
   NullResiduals(const NullNoise& noise, const std::vector<std::size_t>& poses);
 
-  /// As NullNoise::residuals: rows of the poses, one pose after another, x count.
+  /// The field's rows of the poses, one pose after another.
+  const std::vector<Eigen::Index>& rows() const { return rows_; }
+  /// As NullNoise::residuals: rows() x count.
   Eigen::MatrixXd draw(Eigen::Index count, RandomStream& random) const;
 
  private:

@@ -132,14 +132,6 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
   return all;
 }
 
-/// Of some poses, one after another.
-std::vector<Eigen::Index> row_indices(const ResidualField& field, const std::vector<std::size_t>& poses) {
-  std::vector<Eigen::Index> rows;
-  for (const std::size_t pose : poses)
-    for (Eigen::Index row = field.first_row[pose]; row < field.first_row[pose + 1]; ++row) rows.push_back(row);
-  return rows;
-}
-
 /// Every pose's residual (its rows one pose after another) as an error of each joint: poses x joints, columns of unit
 /// norm.
 Eigen::MatrixXd joint_errors(const ResidualField& field, const std::vector<std::size_t>& poses,
@@ -188,10 +180,9 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   if (poses.size() < 4) return 1.0;
   const std::vector<Pairs> all = circumstances(field, poses, chain);
   if (all.empty()) return 1.0;
-  const std::vector<Eigen::Index> rows = row_indices(field, poses);
-  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual()(rows), chain), all);
   const NullNoise noise(field, model);
   const NullResiduals of_noise(noise, poses);
+  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual()(of_noise.rows()), chain), all);
   Eigen::MatrixXd null(seen.size(), draws);
   const std::uint64_t name = random.name();
   in_pieces(static_cast<std::size_t>((draws + kDrawsAtATime - 1) / kDrawsAtATime), [&](std::size_t piece) {

@@ -8,6 +8,7 @@
 
 #include "errors/input_error.hpp"
 #include "fitting/known_arm.hpp"
+#include "fitting/placed_arm.hpp"
 #include "parameters/observation.hpp"
 
 namespace demecal {
@@ -17,12 +18,7 @@ constexpr double kExactStation_m = 1e-7;
 
 /// What a station measured of `arm` without noise; base and tool are its own.
 DataSet measured_at(const KnownArm& arm, RandomStream& stream, const std::string& name, int poses, bool orientation) {
-  KnownArm there = arm;
-  there.data.name = name;
-  there.data.file = name + ".csv";
-  there.data.sha256 = "hash of " + name;
-  there.truth.sensor_from_base = far_pose(stream);
-  there.truth.tools[""].translation() += random_vector(stream, 0.01);
+  KnownArm there = placed_at(arm, stream, name);
   measure(there, stream, {.orientation = orientation}, poses);
   for (std::size_t i = 0; i < there.data.poses.size(); ++i) there.data.poses[i].pose_id = std::to_string(i + 1);
   return there.data;

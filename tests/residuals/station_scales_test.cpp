@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fitting/known_arm.hpp"
+#include "fitting/placed_arm.hpp"
 #include "fitting/station_scales.hpp"
 #include "fitting/stations.hpp"
 
@@ -19,12 +20,7 @@ constexpr double kPrecise_m = 2e-5, kCoarse_m = 2e-4;
 DataSet measured_at(const KnownArm& arm, RandomStream& stream, const std::string& name, const Instrument& instrument,
                     int poses) {
   constexpr int kUnseen = 200;
-  KnownArm there = arm;
-  there.data.name = name;
-  there.data.file = name + ".csv";
-  there.data.sha256 = "hash of " + name;
-  there.truth.sensor_from_base = far_pose(stream);
-  there.truth.tools[""].translation() += random_vector(stream, 0.01);
+  KnownArm there = placed_at(arm, stream, name);
   measure(there, stream, instrument, poses);
   measure(there, stream, {.orientation = instrument.orientation}, kUnseen);
   for (std::size_t i = 0; i < there.data.poses.size(); ++i) {
