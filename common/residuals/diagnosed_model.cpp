@@ -139,6 +139,7 @@ ModelColumns those_of(const ModelColumns& columns, const std::vector<Eigen::Inde
 
 void append_shared_errors(ModelColumns& columns, const SharedErrors& shared) {
   const Eigen::Index known = columns.precision.size(), more = shared.fitted.cols();
+  if (more == 0) return;
   columns.fitted = beside(columns.fitted, shared.fitted);
   columns.validation = beside(columns.validation, shared.validation);
   columns.precision.conservativeResize(known + more);

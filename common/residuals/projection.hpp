@@ -37,11 +37,11 @@ class Projection {
   Projection(const ModelColumns& model, const Eigen::VectorXd& fitted, const Eigen::VectorXd& validation);
 
   /// Rank of the model's columns so far.
-  Eigen::Index rank() const { return basis_.cols(); }
+  Eigen::Index rank() const { return rank_; }
   /// Over the fitted rows: rows x rank(), orthonormal together with the rows of the prior.
-  const RowMatrix& basis() const { return basis_; }
+  RowsOf basis() const { return basis_.leftCols(rank_); }
   /// The same combinations of columns over the validation rows.
-  const RowMatrix& validation_basis() const { return validation_basis_; }
+  RowsOf validation_basis() const { return validation_basis_.leftCols(rank_); }
   /// Residual of the fitted rows and of the validation rows.
   const Eigen::VectorXd& residual() const { return residual_; }
   const Eigen::VectorXd& validation_residual() const { return validation_residual_; }
@@ -56,7 +56,7 @@ class Projection {
   double freedom() const;
   /// Over the rows of the prior: what is known between contacts, then one row a column of the model it was made from,
   /// zero where nothing is believed.
-  const RowMatrix& prior_basis() const { return prior_basis_; }
+  RowsOf prior_basis() const { return prior_basis_.leftCols(rank_); }
   const Eigen::VectorXd& prior_residual() const { return prior_residual_; }
   /// How many of these rows, the last, are of errors that poses share.
   Eigen::Index shared() const { return shared_; }
@@ -83,7 +83,8 @@ class Projection {
   void add(const Trial& trial);
 
  private:
-  RowMatrix basis_, validation_basis_, prior_basis_;
+  RowMatrix basis_, validation_basis_, prior_basis_;  ///< beyond the first rank_ columns: room for further ones
+  Eigen::Index rank_ = 0;
   Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
   Eigen::VectorXd residual_, validation_residual_, prior_residual_, changes_;
   std::vector<bool> has_prior_;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <cmath>
 
 #include "measured_arm.hpp"
 
@@ -123,6 +124,17 @@ TEST(Projection, BasisIsOrthonormalTogetherWithBeliefs) {
   const Problem believed = random_problem(stream, 3, 4);
   const RowMatrix basis = Projection(believed.model, believed.fitted, believed.validation).basis();
   EXPECT_LT(basis.squaredNorm(), 7.0 - 1e-3);
+}
+
+TEST(Projection, BasisIsOrthonormalHoweverNearAColumnIsToAnother) {
+  RandomStream stream{82, 8};
+  for (int power = 0; power <= 8; ++power) {
+    Problem problem = random_problem(stream, 5, 0);
+    problem.model.fitted.col(4) = problem.model.fitted.col(2) + std::pow(10.0, -power) * problem.model.fitted.col(4);
+    const Projection projection(problem.model, problem.fitted, problem.validation);
+    EXPECT_EQ(projection.rank(), 5) << power;
+    EXPECT_TRUE((projection.basis().transpose() * projection.basis()).isIdentity(1e-6)) << power;
+  }
 }
 
 TEST(Projection, TrialIsWhatFittingWithTheColumnsGives) {
