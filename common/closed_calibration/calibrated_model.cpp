@@ -13,6 +13,7 @@
 #include "kinematics/chain.hpp"
 #include "prediction/measurement.hpp"
 #include "residuals/diagnosed_model.hpp"
+#include "residuals/noise_estimation.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
@@ -39,6 +40,26 @@ double row_variance(const Projection& projection) {
   constexpr double kFewest = 3.0;
   const double freedom = std::max(projection.freedom(), kFewest);
   return std::max(1.0, projection.squares() / freedom) * freedom / std::max(1.0, freedom - 2.0);
+}
+
+/// Of the scatter of positions, per axis: what joints have in it, and what poses share. 0 where
+/// nothing tells, and of contacts, whose places move with the arm.
+double arm_scatter_m(const DataSet& data, const Linearization& linearization, const DiagnosedModel& model) {
+  const auto noise = has_contacts(data) ? std::nullopt : noise_shown(linearization, model.smooth);
+  if (!noise || !(model.scales[kPosition] > 0.0)) return 0.0;
+  const ResidualField& field = linearization.fitted;
+  double squares = 0.0, poses = 0.0;
+  for (std::size_t i = 0; i < field.poses.size(); ++i) {
+    if (!data.poses[field.poses[i]].position_m || field.root_weight[i] <= 0.0) continue;
+    poses += 1.0;
+    for (std::size_t joint = 0; joint < field.scattering.size(); ++joint) {
+      const Eigen::Vector3d moved = field.motions.block<3, 1>(field.first_row[i], field.scattering[joint]);
+      squares += noise->model.joint_variance_rad2(joint) * moved.squaredNorm() / std::pow(field.root_weight[i], 2);
+    }
+  }
+  if (poses == 0.0) return 0.0;
+  const double shared = std::pow(noise->model.repeats, 2) + std::pow(noise->model.order, 2);
+  return model.scales[kPosition] * std::sqrt(squares / (3.0 * poses) + shared * std::pow(noise->scale, 2));
 }
 
 /// Adds what base and tool could share out between them unseen: nothing is believed of either, so that least squares
@@ -95,6 +116,7 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
   widen(linearization, covariance);
   FittedPosterior fitted{{{}, {}, {}}, model.scales};
   for (double& scale : fitted.scatter) scale *= std::sqrt(variance);
+  fitted.arm_scatter_m = arm_scatter_m(data, linearization, model);
   Posterior& posterior = fitted.posterior;
   std::vector<Eigen::Index> kept;  // all but contacts' and stations' places: what they take is in the rest's covariance
   for (std::size_t i = 0; i < linearization.ids.size(); ++i) {

@@ -83,6 +83,8 @@ Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const
 struct FittedPosterior {
   Posterior posterior;
   RowScales scatter{};
+  /// Of the positions' scatter, what joints scatter by and poses share: the arm's own, no instrument's.
+  double arm_scatter_m = 0.0;
 };
 FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& robot,
                                  const std::vector<std::size_t>& poses);

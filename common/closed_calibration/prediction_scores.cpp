@@ -62,7 +62,8 @@ CappedMean capped_mean(const std::vector<double>& values, double most) {
 
 class PredictionScores {
  public:
-  PredictionScores(const DataSet& data, const FittedPosterior& fitted, const CorrectedRobot& robot) : data_(data) {
+  PredictionScores(const DataSet& data, const FittedPosterior& fitted, const CorrectedRobot& robot)
+      : data_(data), arm_scatter_m_(fitted.arm_scatter_m) {
     scored_ = scored(poses_of(data, PoseSet::validation), fitted, robot);
     interval_.fitted = scored_.empty();
     const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
@@ -89,6 +90,7 @@ class PredictionScores {
     if (!std::isfinite(interval_.quantile))
       interval_.quantile =
           scores.empty() ? normal_quantile() : normal_quantile_of_scores(scores, groups, fewest_axes(), kIntervalShare);
+    count_scatter_of_arm();
     return interval_;
   }
 
@@ -163,6 +165,18 @@ class PredictionScores {
     return std::sqrt(one.error_m2 / (noise_m2 - std::min(one.posterior_m2, kMostHidden * noise_m2)));
   }
 
+  /// An arm that scatters is off by it at a corrected position too: of the noise that measurements have with it, only
+  /// the rest is no error of the model.
+  void count_scatter_of_arm() {
+    constexpr double kMost = 0.99;  // every instrument scatters
+    double own_m = std::min(arm_scatter_m_, kMost * interval_.noise_m);
+    for (const auto& [station, noise_m] : interval_.station_noise_m) own_m = std::min(own_m, kMost * noise_m);
+    const auto without = [&](double noise_m) { return std::sqrt(noise_m * noise_m - own_m * own_m); };
+    interval_.noise_m = without(interval_.noise_m);
+    for (auto& [station, noise_m] : interval_.station_noise_m) noise_m = without(noise_m);
+    interval_.model_error_m = std::hypot(interval_.model_error_m, own_m);
+  }
+
   void leave_out_gross_errors() {
     constexpr double kGross = 10.0;
     if (scored_.empty()) return;
@@ -222,6 +236,7 @@ class PredictionScores {
   }
 
   const DataSet& data_;
+  const double arm_scatter_m_;
   PredictionInterval interval_;
   std::map<std::string, std::size_t> groups_;
   std::vector<ScoredPose> scored_, seen_;  ///< seen_: calibration poses, where they tell the noise

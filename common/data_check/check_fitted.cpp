@@ -41,6 +41,12 @@ Finding in_other_frame(const OtherSet& other) {
           distance_text(other.shift_m), before_and_after(other.as_given_m, other.if_changed_m))};
 }
 
+/// Whether the finding says that some poses stand otherwise than the others.
+bool moves_some_poses(const Finding& finding) {
+  return finding.kind == FindingKind::instrument_moved || finding.kind == FindingKind::joint_zero_changed ||
+         finding.kind == FindingKind::set_in_other_frame || finding.kind == FindingKind::wrong_tool;
+}
+
 /// A finding for each joint of which the fitted link is farther from its description than three times what makers'
 /// figures are usually wrong by.
 std::vector<Finding> implausible_links(const Chain& described, const Chain& fitted) {
@@ -105,7 +111,10 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
   for (Finding& finding : find_wrong_contacts(data, robot))
     if (finding.poses.empty() || !named.contains(finding.poses.front())) check.findings.push_back(std::move(finding));
   if (errors.empty()) return;
-  if (const auto other = find_other_frame(predicted, measured)) return check.findings.push_back(in_other_frame(*other));
+  // Of poses that stand in two frames already, none is the model's.
+  if (const auto other =
+          std::ranges::none_of(check.findings, moves_some_poses) ? find_other_frame(predicted, measured) : std::nullopt)
+    return check.findings.push_back(in_other_frame(*other));
   const double least_m = kNotableShare * Trial{data.robot.chain, {data.robot.chain.tool_m}, rows, 1}.reach_m();
   const double deviation_m = std::max(median(errors) / normal_length_quantile(3, 0.5), 1e-6);
   const PointPrediction predict{point, [&](const TrialRow& row) { return error(row) / deviation_m; }};

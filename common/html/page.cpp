@@ -15,6 +15,7 @@
 #include "html/chart.hpp"
 #include "html/markup.hpp"
 #include "html/sections.hpp"
+#include "report/evaluation.hpp"
 #include "report/figures.hpp"
 
 namespace demecal::inline html {
@@ -114,9 +115,10 @@ std::string data_check_banner(const Report& report) {
          "\n<ul class=\"plain\">\n" + lines + "</ul></div>\n";
 }
 
-/// What the closed loop's own controls object to, where they do.
+/// What accept poses and the closed loop's own controls object to, where they do.
 std::string doubt(const Report& report) {
-  const std::string sentence = doubt_sentence(report);
+  const std::string beyond = beyond_radii_sentence(coverage_of(report.pose_errors)), other = doubt_sentence(report);
+  const std::string sentence = beyond + (beyond.empty() || other.empty() ? "" : " ") + other;
   return sentence.empty() ? sentence : "<p class=\"banner\" id=\"doubt\">" + escaped(sentence) + "</p>\n";
 }
 

@@ -134,17 +134,46 @@ std::string workspace_sentence(const WorkspaceEntry& error) {
       *error.rms_mm, *error.p95_mm, error.beside_base ? " and the arm as a whole shifted and turned to fit best" : "");
 }
 
-IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses) {
+namespace {
+
+/// The chance that of `count` tries, each of which succeeds with `share`, at most `successes` do: the tail of a
+/// binomial is one of Fisher's F.
+double chance_of_at_most(std::size_t successes, std::size_t count, double share) {
+  if (successes >= count) return 1.0;
+  const auto above = static_cast<double>(successes + 1), below = static_cast<double>(count - successes);
+  return fisher_p_value(share / (1.0 - share) * below / above, 2.0 * above, 2.0 * below);
+}
+
+}  // namespace
+
+IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses, PoseSet set) {
   IntervalCoverage coverage;
   std::vector<double> radii_mm;
+  std::set<std::string> names;
   for (const PoseErrorEntry& pose : poses) {
-    if (pose.set != to_string(PoseSet::accept) || !pose.after_mm || !pose.interval95_mm) continue;
+    if (pose.set != to_string(set) || !pose.after_mm || !pose.interval95_mm) continue;
     ++coverage.poses;
     coverage.inside += *pose.after_mm <= *pose.interval95_mm ? 1 : 0;
+    coverage.distinct += pose.id.empty() || names.insert(pose.id).second ? 1 : 0;
     radii_mm.push_back(*pose.interval95_mm);
   }
   if (!radii_mm.empty()) coverage.median_mm = median(radii_mm);
   return coverage;
+}
+
+std::string beyond_radii_sentence(const IntervalCoverage& coverage, PoseSet set) {
+  constexpr double kRare = 1e-3;
+  if (coverage.poses == 0) return {};
+  const std::size_t inside = coverage.inside * coverage.distinct / coverage.poses;
+  if (chance_of_at_most(inside, coverage.distinct, kIntervalShare) > kRare) return {};
+  return fmt::format(
+      "Only {} of {} {} poses lie within the radius that is to hold 95 % of them: they differ from those that the "
+      "model "
+      "was made from by something that it does not know. No radius, and no figure of a corrected position, holds for "
+      "them. See whether arm, tool, instrument or conditions changed between (`demecal check` compares a model with "
+      "new "
+      "poses), or whether the poses before were as good.",
+      coverage.inside, coverage.poses, to_string(set));
 }
 
 DataCheckEntry data_check_entry(const DataCheck& check) {

@@ -80,12 +80,16 @@ std::optional<WorkspaceEntry> workspace_entry(const CalibratedModel& model, bool
 /// "0.21 mm rms, 0.4 mm for 95 % ...": the same for people.
 std::string workspace_sentence(const WorkspaceEntry& error);
 
-/// How many accept poses lie within their radius, of how many, and the radii's median, mm.
+/// How many poses of a set lie within their radius, of how many, and the radii's median, mm.
 struct IntervalCoverage {
   std::size_t poses = 0, inside = 0;
   double median_mm = 0.0;
+  std::size_t distinct = 0;  ///< repeats and targets of one pose counted once
 };
-IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses);
+IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses, PoseSet set = PoseSet::accept);
+/// Where so few lie within it as chance makes in less than one case of a thousand: what that says. Nothing otherwise.
+/// Repeats and targets of one pose count as one pose.
+std::string beyond_radii_sentence(const IntervalCoverage& coverage, PoseSet set = PoseSet::accept);
 
 DataCheckEntry data_check_entry(const DataCheck& check);
 

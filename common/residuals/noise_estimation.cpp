@@ -261,15 +261,14 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
           .scale = scale};
 }
 
-DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model) {
-  const Linearization linearization = linearize(problem, model);
+std::optional<NoiseEstimate> noise_shown(const Linearization& linearization, const SmoothCorrections& smooth) {
   const RowsTaken taken(linearization.fitted);
-  if (taken.size() == 0) return model;
-  const RowMatrix columns = beside(linearization.fitted.declared, model.smooth.columns(linearization.fitted));
-  const std::vector<Eigen::Index> moving = movable_columns(linearization, model.smooth);
+  if (taken.size() == 0) return std::nullopt;
+  const RowMatrix columns = beside(linearization.fitted.declared, smooth.columns(linearization.fitted));
+  const std::vector<Eigen::Index> moving = movable_columns(linearization, smooth);
   NoiseRows rows{
       .columns = taken.select(columns(Eigen::all, moving)),
-      .residual = taken.select(linearization.fitted.residual + at_rest(columns, moving, model.smooth)),
+      .residual = taken.select(linearization.fitted.residual + at_rest(columns, moving, smooth)),
       .joint_motions = taken.select(linearization.fitted.motions(Eigen::all, linearization.fitted.scattering)),
       .first_row = {0},
       .group = {},
@@ -280,12 +279,17 @@ DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedMo
     rows.group.push_back(linearization.fitted.group[pose]);
     rows.order.push_back(static_cast<double>(linearization.fitted.poses[pose]));
   }
-  const NoiseEstimate noise = estimate_noise(rows);
-  if (!is_noise(noise, model.scales)) return model;
-  model.noise = noise.model;
+  return estimate_noise(rows);
+}
+
+DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model) {
+  const Linearization linearization = linearize(problem, model);
+  const std::optional<NoiseEstimate> noise = noise_shown(linearization, model.smooth);
+  if (!noise || !is_noise(*noise, model.scales)) return model;
+  model.noise = noise->model;
   model.noise.fast = unfollowed_variance(model.noise, linearization.fitted.poses);
   model.noise_estimated = true;
-  for (double& scale : model.scales) scale *= noise.scale;
+  for (double& scale : model.scales) scale *= noise->scale;
   return model;
 }
 

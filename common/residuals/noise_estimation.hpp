@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "decompositions/decompositions.hpp"
@@ -79,6 +80,9 @@ class RestrictedLikelihood {
   std::vector<double> order_;
   double per_joint_square_ = 1.0, neighbourhood_ = 0.0;
 };
+
+/// The same of the residuals over the fitted poses of a model that has no noise; nothing where no pose takes part.
+std::optional<NoiseEstimate> noise_shown(const Linearization& linearization, const SmoothCorrections& smooth);
 
 /// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show. Poses
 /// far out have no part in it. Smooth terms count whether they were chosen or not, slow ones first, as many as leave

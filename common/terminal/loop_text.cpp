@@ -183,16 +183,15 @@ std::string dropped_line(const Report& report) {
 /// What it comes to, for who asks what to do about it.
 std::string causes_lines(const Report& report) {
   if (report.causes.empty()) return {};
-  constexpr std::size_t kMostAdvised = 3;  // sentences of advice
-  std::vector<std::string> advised;
   std::string text = fmt::format("  causes, by the rise of the error on {} poses without each\n", judging_set(report));
   for (std::size_t i = 0; i < report.causes.size(); ++i) {
     const std::string number = fmt::format("{:>5}.", i + 1);
-    text += wrapped(number, cost_sentence(report.causes[i]), kIndent);
     const std::string& advice = report.causes[i].advice;
-    if (advised.size() == kMostAdvised || std::ranges::find(advised, advice) != advised.end()) continue;
-    text += wrapped(std::string(kIndent - 1, ' '), advice, kIndent);
-    advised.push_back(advice);
+    const auto first =
+        static_cast<std::size_t>(std::ranges::find(report.causes, advice, &CauseEntry::advice) - report.causes.begin());
+    const std::string told = first < i ? fmt::format(" What to do: as of {}.", first + 1) : "";
+    text += wrapped(number, cost_sentence(report.causes[i]) + told, kIndent);
+    if (first == i) text += wrapped(std::string(kIndent - 1, ' '), advice, kIndent);
   }
   const std::string fewer = front_sentence(report);
   return text + (fewer.empty() ? "" : wrapped(" ", fewer, 4)) + "\n";

@@ -55,7 +55,9 @@ std::string intervals_text(const std::vector<PoseErrorEntry>& poses, const std::
                               "95 % of errors are predicted within {:.3f} mm (median over accept poses): {} of {} "
                               "accept poses are",
                               accept.median_mm, accept.inside, accept.poses);
-  return wrapped("  prediction:", within + "; " + prediction->remark, 4);
+  const std::string beyond = beyond_radii_sentence(accept);
+  return wrapped("  prediction:", within + "; " + prediction->remark, 4) +
+         (beyond.empty() ? "" : wrapped("  NOTE:", beyond, 4));
 }
 
 std::string workspace(const std::optional<WorkspaceEntry>& error) {
@@ -237,7 +239,13 @@ std::string to_terminal(const Evaluation& evaluation) {
   }
   text += lengths(evaluation.length_errors);
   text += intervals_text(evaluation.pose_errors, evaluation.prediction);
-  if (evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {
+  std::string beyond = beyond_radii_sentence(coverage_of(evaluation.pose_errors));
+  for (const PoseSet set : {PoseSet::validation, PoseSet::calibration}) {
+    if (!beyond.empty()) break;
+    beyond = beyond_radii_sentence(coverage_of(evaluation.pose_errors, set), set);
+    if (!beyond.empty()) text += wrapped("  NOTE:", beyond, 4);
+  }
+  if (beyond.empty() && evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
                         *evaluation.uncertainty->expanded_mm);
   }

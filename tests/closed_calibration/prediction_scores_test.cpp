@@ -132,6 +132,21 @@ TEST(PredictionInterval, IsNotWidenedByGrossErrorsAndCountsThem) {
   EXPECT_LT(spoilt.mean_radius_m, 2.0 * clean.mean_radius_m);
 }
 
+TEST(PredictionInterval, CountsWhatTheArmScattersByItselfAsItsErrorAndNotAsNoise) {
+  constexpr double kInstrument_m = 3e-5, kJoint_rad = 2e-4;
+  for (std::uint64_t seed = 950; seed < 955; ++seed) {
+    const DataSet steady = judged_arm(90, 39, {.sigma_m = kInstrument_m}, seed);
+    DataSet scattering = steady;
+    RandomStream random{seed, 4713};
+    for (MeasuredPose& pose : scattering.poses)
+      for (double& angle : pose.joints) angle += kJoint_rad * random.normal();
+    const PredictionInterval own = interval_trial(steady).interval, with = interval_trial(scattering).interval;
+    EXPECT_LT(own.model_error_m, 0.5 * kJoint_rad) << seed;
+    EXPECT_GT(with.model_error_m, kJoint_rad) << seed;  // of levers of a metre
+    EXPECT_LT(with.noise_m, 5.0 * kInstrument_m) << seed;
+  }
+}
+
 TEST(PredictionInterval, SaysWhoseErrorsItComesFrom) {
   const IntervalTrial told = interval_trial(judged_arm(60, 39, {}, 901)),
                       fitted = interval_trial(judged_arm(60, 0, {}, 902));

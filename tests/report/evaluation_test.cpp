@@ -58,6 +58,30 @@ TEST(UnappliedEffects, StandInTheJsonOfAnEvaluation) {
   EXPECT_EQ(written[0]["lacking"], "approach");
 }
 
+/// `poses` accept poses with a radius of 0.1 mm, each of `targets` targets, of which the first `inside` poses keep to
+/// it.
+IntervalCoverage coverage(int poses, int inside, int targets) {
+  std::vector<PoseErrorEntry> entries;
+  for (int i = 0; i < poses * targets; ++i)
+    entries.push_back(
+        {"P" + std::to_string(i / targets), "", "accept", {}, i / targets < inside ? 0.05 : 0.2, 0.1, {}});
+  entries.push_back({"other", "", "validation", {}, 9.0, 0.1, {}});
+  return coverage_of(entries);
+}
+
+TEST(BeyondRadii, IsSaidOnlyWhereChanceHardlyDoesIt) {
+  EXPECT_THAT(beyond_radii_sentence(coverage(40, 30, 1)), HasSubstr("Only 30 of 40 accept poses lie within"));
+  EXPECT_THAT(beyond_radii_sentence(coverage(40, 36, 1)), IsEmpty());
+  EXPECT_THAT(beyond_radii_sentence(coverage(40, 40, 1)), IsEmpty());
+  EXPECT_THAT(beyond_radii_sentence(coverage(0, 0, 1)), IsEmpty());
+  EXPECT_THAT(beyond_radii_sentence(coverage(20, 0, 1)), HasSubstr("Only 0 of 20"));
+}
+
+TEST(BeyondRadii, CountsTheTargetsOfOnePoseOnce) {
+  EXPECT_THAT(beyond_radii_sentence(coverage(15, 12, 3)), IsEmpty());
+  EXPECT_THAT(beyond_radii_sentence(coverage(45, 36, 1)), HasSubstr("Only 36 of 45"));
+}
+
 TEST(EvaluationJson, StandsOnOneLineWithAllSets) {
   const ErrorBySet errors = made_up_report().after;
   const std::string text = to_json(Evaluation{errors, {}, {}, {}, {}});
