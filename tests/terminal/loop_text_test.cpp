@@ -93,7 +93,7 @@ TEST(LoopTerminal, GathersManyHarmonicsByJoint) {
   EXPECT_THAT(text, HasSubstr(rounded(loop.rounds[1].validation_before_mm, 3) + " -> " +
                               rounded(loop.rounds[27].validation_after_mm, 3)));
   const std::string causes = text.substr(0, text.find("effect added"));
-  EXPECT_THAT(unbroken(causes), HasSubstr("What to do: as of 1."));
+  EXPECT_THAT(unbroken(causes), HasSubstr("What to do: as of 2."));
   EXPECT_LT(screen_lines(causes).size(), 15u);
   EXPECT_LT(screen_lines(text.substr(causes.size())).size(), 30u);
 }
