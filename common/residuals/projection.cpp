@@ -61,15 +61,12 @@ Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted,
   validation_basis_ = product(model.validation, to_basis_);
   prior_basis_ = prior * to_basis_;
   rank_ = basis_.cols();
+  freedom_ = static_cast<double>(residual_.size()) - basis_.squaredNorm();
   const Eigen::VectorXd along = basis_.transpose() * residual_ + prior_basis_.transpose() * prior_residual_;
   changes_ = to_basis_ * along;
   residual_ -= basis_ * along;
   validation_residual_ -= validation_basis_ * along;
   prior_residual_ -= prior_basis_ * along;
-}
-
-double Projection::freedom() const {
-  return static_cast<double>(residual_.size()) - basis().squaredNorm();
 }
 
 Projection::Unexplained Projection::unexplained(const RowMatrix& fitted, const RowMatrix& validation) const {
@@ -113,6 +110,7 @@ void Projection::add(const Trial& trial) {
   append_columns(validation_basis_, rank_, validation);
   append_columns(prior_basis_, rank_, prior);
   rank_ += fitted.cols();
+  freedom_ -= fitted.squaredNorm();
 }
 
 }  // namespace demecal::inline residuals

@@ -53,7 +53,7 @@ class Projection {
   Eigen::MatrixXd covariance() const { return to_basis_ * to_basis_.transpose(); }
   /// Sum of squares left, prior values included, and degrees of freedom of the fitted rows.
   double squares() const { return residual_.squaredNorm() + prior_residual_.squaredNorm(); }
-  double freedom() const;
+  double freedom() const { return freedom_; }
   /// Over the rows of the prior: what is known between contacts, then one row a column of the model it was made from,
   /// zero where nothing is believed.
   RowsOf prior_basis() const { return prior_basis_.leftCols(rank_); }
@@ -85,6 +85,7 @@ class Projection {
  private:
   RowMatrix basis_, validation_basis_, prior_basis_;  ///< beyond the first rank_ columns: room for further ones
   Eigen::Index rank_ = 0;
+  double freedom_ = 0.0;
   Eigen::MatrixXd to_basis_;  ///< of the columns it was made from
   Eigen::VectorXd residual_, validation_residual_, prior_residual_, changes_;
   std::vector<bool> has_prior_;
