@@ -77,7 +77,7 @@ struct PivotedCholesky::Factors {
 };
 
 PivotedCholesky::PivotedCholesky(const Eigen::MatrixXd& a)
-    : factors_(std::make_shared<const Factors>(Eigen::LDLT<Eigen::MatrixXd>(a))) {}
+    : factors_(std::make_shared<const Factors>(Factors{Eigen::LDLT<Eigen::MatrixXd>(a)})) {}
 
 bool PivotedCholesky::is_positive() const {
   return factors_->ldlt.info() == Eigen::Success && factors_->ldlt.isPositive();
@@ -154,9 +154,9 @@ struct PivotedQr::Factors {
 };
 
 PivotedQr::PivotedQr(const Eigen::MatrixXd& a)
-    : factors_(std::make_shared<const Factors>(Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a))) {}
+    : factors_(std::make_shared<const Factors>(Factors{Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(a)})) {}
 PivotedQr::PivotedQr(const Eigen::MatrixXd& a, double threshold)
-    : factors_(std::make_shared<const Factors>(pivoted_qr(a, threshold))) {}
+    : factors_(std::make_shared<const Factors>(Factors{pivoted_qr(a, threshold)})) {}
 
 Eigen::Index PivotedQr::rank() const {
   return factors_->qr.rank();

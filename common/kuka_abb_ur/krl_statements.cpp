@@ -38,8 +38,19 @@ KrlStatements::KrlStatements(const ProgramText& text, Program& program)
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     read_name(begin, end);
     if (begin == 0 || (code_[begin - 1] != '.' && code_[begin - 1] != '#')) read_motion(begin, end);
+    read_guidance(begin, end);
   });
   changes_.mark(program.targets);
+  for (Target& target : program.targets) {
+    if (!target.not_sent_to.empty()) continue;
+    if (!displaces_.empty())
+      target.not_sent_to =
+          "the program lets sensors displace motions (" + displaces_ + "), and where it does is not followed";
+    else if (keeps_orientation_ && target.is_pose())
+      target.not_sent_to =
+          "lines may end with another orientation than that of their point ($ORI_TYPE=#CONSTANT), and where they do is "
+          "not followed";
+  }
 }
 
 /// Says where a motion goes to what has no numbers, or by numbers.
@@ -51,6 +62,31 @@ void KrlStatements::read_motion(std::size_t begin, std::size_t end) {
   std::size_t points = points_of_krl_motion(word);
   for (std::size_t at = end; points > 0 && at < line_end; at = next_krl_argument(code_, at, line_end), --points)
     read_destination(begin, std::min(text_.skip_spaces(at), line_end), line_end, points == 1);
+  if (word == "circ" || word == "scirc") read_circle_angle(end, line_end);
+}
+
+/// CA 180: it ends there, and not at the second point.
+void KrlStatements::read_circle_angle(std::size_t begin, std::size_t line_end) {
+  for (std::size_t at = begin; at < line_end; ++at) {
+    if (!text_.begins_word(at)) continue;
+    if (text_.word_at(at) == "ca") program_.joints_lost_at.push_back(at);
+    at = text_.word_end(at) - 1;
+  }
+}
+
+/// What lets motions end elsewhere than at their points: RSI_ON, ST_ON, technology functions, $ORI_TYPE=#CONSTANT.
+void KrlStatements::read_guidance(std::size_t begin, std::size_t end) {
+  constexpr std::array<std::string_view, 4> kSensors{"rsi_on", "rsi_movecorr", "st_on", "st_on1"};
+  const std::string word = text_.word_at(begin);
+  const std::size_t line_end = std::min(code_.find('\n', begin), code_.size());
+  if (std::find(kSensors.begin(), kSensors.end(), word) != kSensors.end() && text_.next(end) == '(')
+    displaces_ = code_.substr(begin, end - begin);
+  const std::size_t sign = std::min(code_.find('=', end), line_end);
+  if (sign >= line_end || code_.substr(sign).starts_with("==")) return;
+  const std::string value = lower_case(code_.substr(text_.skip_spaces(sign + 1), 9));
+  const bool mode = lower_case(code_.substr(end, sign - end)).find(".mode") != std::string::npos;
+  if (word.starts_with("$tech") && mode && !value.starts_with("#off")) displaces_ = code_.substr(begin, end - begin);
+  keeps_orientation_ = keeps_orientation_ || (word == "$ori_type" && value == "#constant");
 }
 
 /// Whether ":" follows the aggregate that begins there; its target is then none.

@@ -36,6 +36,8 @@ class KrlStatements {
   void read_name(std::size_t begin, std::size_t end);
   void read_motion(std::size_t begin, std::size_t end);
   void read_destination(std::size_t motion, std::size_t begin, std::size_t line_end, bool last);
+  void read_circle_angle(std::size_t begin, std::size_t line_end);
+  void read_guidance(std::size_t begin, std::size_t end);
   void read_relative(std::size_t motion, std::size_t begin, std::size_t line_end);
   std::size_t after_index(std::size_t end, std::size_t line_end) const;
   bool is_declaration(const Place& place) const;
@@ -49,9 +51,11 @@ class KrlStatements {
   std::string_view code_;
   Program& program_;
   ChangedNames changes_;
-  double moved_mm_ = 0.0;          ///< by relative motions since the last to a place; no number: unknown
-  std::set<std::string> names_;    ///< of targets, in small letters
-  std::set<std::size_t> numbers_;  ///< where those of targets begin
+  std::string displaces_{};         ///< what lets sensors displace motions
+  bool keeps_orientation_ = false;  ///< $ORI_TYPE may let lines end with another orientation than their point's
+  double moved_mm_ = 0.0;           ///< by relative motions since the last to a place; no number: unknown
+  std::set<std::string> names_;     ///< of targets, in small letters
+  std::set<std::size_t> numbers_;   ///< where those of targets begin
 };
 
 }  // namespace demecal::inline kuka_abb_ur

@@ -43,6 +43,10 @@ class RapidReader {
   explicit RapidReader(const ReaderInput& input)
       : text_(input.source, {.comment = '!'}), arm_(input.arm), controller_(input.controller) {
     require_six_joints(input.arm, input.source.file(), "RAPID");
+    text_.for_each_word([&](std::size_t begin, std::size_t /*end*/) {
+      const std::string word = text_.word_at(begin);
+      offsets_axes_ = offsets_axes_ || word == "eoffson" || word == "eoffsset";
+    });
   }
 
   Program read() {
@@ -170,8 +174,9 @@ class RapidReader {
     constexpr double kNoAxis = 9e9;
     for (std::size_t i = 0; i < axes.items.size(); ++i) {
       const auto cell = cell_at(text_.text(), axes.items[i].begin, axes.items[i].size, {});
-      if (cell && (cell->value == 0.0 || cell->value == kNoAxis)) continue;
-      return std::string("an external axis, eax_") + static_cast<char>('a' + i) + ", may carry the arm";
+      if (cell && (cell->value == kNoAxis || (cell->value == 0.0 && !offsets_axes_))) continue;
+      return std::string("an external axis, eax_") + static_cast<char>('a' + i) + ", may carry the arm" +
+             (cell && cell->value == 0.0 ? " (EOffsOn or EOffsSet moves it)" : "");
     }
     return "";
   }
@@ -188,6 +193,7 @@ class RapidReader {
   const Chain& arm_;
   const ControllerData& controller_;
   Program program_;
+  bool offsets_axes_ = false;  ///< by EOffsOn or EOffsSet
 };
 
 std::string rapid_text(std::span<const ProgrammedStop> stops, const Chain& arm) {

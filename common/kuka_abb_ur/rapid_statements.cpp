@@ -10,6 +10,7 @@
 
 #include "data/text.hpp"
 #include "kuka_abb_ur/rapid_way.hpp"
+#include "parsed_programs/compliance.hpp"
 #include "parsed_programs/frame_flow.hpp"
 
 namespace demecal::inline kuka_abb_ur {
@@ -145,7 +146,12 @@ RapidStatements::RapidStatements(const ProgramText& text, Program& program)
     if (const std::size_t targets = targets_of_rapid_motion(word)) read_motion(end, targets);
   });
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_name(begin, end); });
-  text.for_each_word([&](std::size_t begin, std::size_t end) { read_guidance(begin, end); });
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    read_guidance(begin, end);
+    const std::string word = text.word_at(begin);
+    if (word == "softact") note_compliance(text, begin, "SoftAct", "SoftDeact", program);
+    if (word == "fcact") note_compliance(text, begin, "FCAct", "FCDeact", program);
+  });
   changes_.mark(program.targets);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kuka_abb_ur/urscript_statements.hpp"
+#include "parsed_programs/compliance.hpp"
 
 namespace demecal::inline kuka_abb_ur {
 namespace {
@@ -162,6 +163,10 @@ StatedFrames UrScriptWay::held(std::size_t begin, bool by_pose) {
 
 void UrScriptWay::note_routines(Program& program) const {
   program.joints_lost_at.insert(program.joints_lost_at.end(), untold_.begin(), untold_.end());
+  for (const std::size_t begin : untold_) {
+    if (text_.word_at(begin) == "force_mode")
+      note_compliance(text_, begin, "force_mode()", "end_force_mode()", program);
+  }
   flow_.note_arrivals(program);
   if (!believed_.empty())
     note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program, "put what they do into this file");

@@ -17,6 +17,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/fanuc_ls_instructions.hpp"
 #include "languages/fanuc_ls_motions.hpp"
 #include "languages/fanuc_ls_positions.hpp"
 #include "parsed_programs/changed_names.hpp"

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "languages/fanuc_ls_shifts.hpp"
 #include "languages/labelled_way.hpp"
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
@@ -18,7 +19,7 @@ namespace demecal::inline languages {
 /// Past the line that is this section's heading; the end where there is none.
 std::size_t fanuc_section(const ProgramText& text, std::string_view heading);
 
-/// Whether the program tracks a line: by its header, LINE[..] or SETTRIG.
+/// Whether the program tracks a line: by its header, or by instructions such as LINE[..], SETTRIG and SELBOUND.
 bool tracks_a_line(const ProgramText& text);
 
 /// Whether the program moves the first group of motion: by its header, DEFAULT_GROUP, or where that is not there.
@@ -52,8 +53,8 @@ class FanucMotions {
   void complete(int number, Target& target) const;
 
  private:
-  void read_statement(const ProgramText& text, std::size_t begin, std::size_t end);
-  void read_touch_offset(const ProgramText& text, std::size_t begin, std::size_t end);
+  void read_instruction(const ProgramText& text, std::size_t begin, std::size_t end, ChangedNames& changes);
+  void read_motion(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_way(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_jumps(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional);
@@ -62,13 +63,10 @@ class FanucMotions {
   std::map<std::size_t, std::string> others_;
   std::vector<std::size_t> elsewhere_;  ///< where motions go to none of the positions alone, or may stop before it
   std::map<int, std::string> not_sent_to_;
-  LabelledWay way_{"UTOOL_NUM", "UFRAME_NUM"};  ///< the numbers, as why frames are unknown
-  bool shifted_ = false;                        ///< by Touch Offset
-  std::string computed_numbers_{};              ///< why no position is certain; empty: all are
+  std::map<std::size_t, std::string> compliant_;  ///< instructions behind which the arm gives way
+  LabelledWay way_{"UTOOL_NUM", "UFRAME_NUM"};    ///< the numbers, as why frames are unknown
+  FanucShifts shifts_{};
+  std::string computed_numbers_{};  ///< why no position is certain; empty: all are
 };
-
-/// The number of a position whose bracket opens at `open`: 3 of [3] and of [3:name]; nothing, -1, where it is no
-/// number.
-int position_number(const ProgramText& text, std::size_t open);
 
 }  // namespace demecal::inline languages

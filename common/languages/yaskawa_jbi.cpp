@@ -57,7 +57,8 @@ class JobReader {
   }
 
   Program read() {
-    shifts_ = always_shifts_ = may_shift_anywhere();
+    always_shifts_ = job_jumps(text_);
+    if (always_shifts_) shifts_ = all_job_shifts(text_);
     for (std::size_t begin = 0, end = 0; begin < code_.size(); begin = end + 1) {
       end = std::min(code_.find('\n', begin), code_.size());
       read_line(begin, end);
@@ -174,25 +175,15 @@ class JobReader {
     set_frame(target.frames, {name, Eigen::Isometry3d::Identity(), name + " is not given in this file"});
   }
 
-  /// Whether the job shifts motions and does not only go from line to line.
-  bool may_shift_anywhere() const {
-    bool shifts = false, turns = false;
-    text_.for_each_word([&](std::size_t begin, std::size_t end) {
-      const std::string word = lower_case(code_.substr(begin, end - begin));
-      shifts = shifts || word == "sfton";
-      turns = turns || word == "jump" || word == "ifthen" || word == "call" || word == "while" || word == "for";
-    });
-    return shifts && turns;
-  }
-
   /// An instruction with the positions that it names.
   void read_instruction(std::size_t begin, std::size_t end) {
     const std::string word = lower_case(code_.substr(begin, text_.word_end(begin) - begin));
     read_job_way(text_, begin, end, way_);
-    if (word == "sfton") shifts_ = true;
-    if (word == "sftof") shifts_ = always_shifts_;
+    if (const auto [ending, why] = job_shift(word); !ending.empty()) shifts_[ending] = why;
+    if (!always_shifts_) shifts_.erase(word);
     if (word == "settool" || word == "mframe") changes_of_controller_ = word;
     const bool motion = word.starts_with("mov"), coordinated = word.starts_with("smov"), relative = word == "imov";
+    const bool shifted = motion && !shifts_.empty(), other = !motion && word.find("mov") != std::string::npos;
     bool named = false;
     for (std::size_t at = begin; at < end; ++at) {
       if (!text_.begins_word(at)) continue;
@@ -205,17 +196,16 @@ class JobReader {
       named = true;
       Uses& uses = uses_[key];
       if (motion) way_.motion(begin);
-      if (motion && !shifts_) {
+      if (motion && !shifted) {
         uses.motions.push_back({begin, word == "movj" ? Motion::joints : Motion::line, {}});
       } else if (motion || coordinated) {
-        uses.why = shifts_ ? "it is moved to while a shift is on (SFTON)"
-                           : "it is moved to in the frame of a station (" + word + ')';
+        uses.why = shifted ? shifts_.begin()->second : "it is moved to in the frame of a station (" + word + ')';
       } else if (word != "refp") {
         uses.why = "it is used by " + word + ", which moves by it or changes it";
       }
     }
     if (!motion && word != "refp" && names_computed_position(text_, begin, end)) changes_any_ = word;
-    if (relative || coordinated || (motion && shifts_)) program_.joints_lost_at.push_back(begin);
+    if (relative || coordinated || shifted || (other && named)) program_.joints_lost_at.push_back(begin);
     if (motion && !named) note_computed(std::min(text_.skip_spaces(text_.word_end(begin)), end), end);
   }
 
@@ -275,10 +265,11 @@ class JobReader {
   const ControllerData& controller_;
   Program program_;
   JobSetting setting_;
-  bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false, shifts_ = false,
+  bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false,
        always_shifts_ = false;
-  std::string changes_of_controller_;  ///< the instruction that does
-  std::string changes_any_;            ///< the one that may change any P
+  std::map<std::string, std::string> shifts_{};  ///< why motions are shifted, by the instruction that ends it
+  std::string changes_of_controller_;            ///< the instruction that does
+  std::string changes_any_;                      ///< the one that may change any P
   std::vector<Position> positions_;
   std::map<std::string, Uses> uses_;  ///< by position_name
   LabelledWay way_{"", ""};

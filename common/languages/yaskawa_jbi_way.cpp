@@ -1,6 +1,7 @@
 #include "languages/yaskawa_jbi_way.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -76,6 +77,29 @@ void read_job_way(const ProgramText& text, std::size_t begin, std::size_t end, L
 bool names_computed_position(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::string argument = lower_case(argument_of(text, begin, end));
   return argument.starts_with("p[") || argument.starts_with("px[");
+}
+
+bool job_jumps(const ProgramText& text) {
+  constexpr std::array<std::string_view, 5> kWords{"jump", "ifthen", "call", "while", "for"};
+  bool jumps = false;
+  text.for_each_word([&](std::size_t begin, std::size_t /*end*/) {
+    jumps = jumps || std::find(kWords.begin(), kWords.end(), text.word_at(begin)) != kWords.end();
+  });
+  return jumps;
+}
+
+std::pair<std::string, std::string> job_shift(std::string_view word) {
+  if (word == "sfton") return {"sftof", "it is moved to while a shift is on (SFTON)"};
+  if (word == "comarcon") return {"comarcof", "it is moved to while an arc sensor shifts motions (COMARCON)"};
+  return {};
+}
+
+std::map<std::string, std::string> all_job_shifts(const ProgramText& text) {
+  std::map<std::string, std::string> all;
+  text.for_each_word([&](std::size_t begin, std::size_t /*end*/) {
+    if (const auto [ending, why] = job_shift(text.word_at(begin)); !ending.empty()) all[ending] = why;
+  });
+  return all;
 }
 
 }  // namespace demecal::inline languages

@@ -172,6 +172,7 @@ class AsReader {
     const StatedFrames frames = statements_.frames(lookup);
     note_untold_locations(
         text_, statements_.uses(), [&](const std::string& name) { return statements_.not_sent_to(name); }, program_);
+    end_at_unknown_statements(statements_.unknown(), program_);
     std::vector<Target> targets = program_.targets, kept;
     std::stable_sort(targets.begin(), targets.end(),
                      [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
@@ -182,6 +183,7 @@ class AsReader {
       if (why.empty() && target.is_pose() && !statements_.sets_configuration().empty())
         why = "the program sets the arm's configuration (" + statements_.sets_configuration() +
               "), and where it holds is not followed";
+      if (why.empty() && statements_.displaces()) why = kAltered;
       if (!why.empty()) {
         skip_target(program_, target, why);
         for (const TargetUse& use : statements_.uses(name)) program_.joints_lost_at.push_back(use.begin);

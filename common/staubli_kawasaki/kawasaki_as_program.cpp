@@ -48,17 +48,23 @@ void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::si
   if (is_motion(word)) return read_motion(text, word, begin, end);
   if (word == "point" && argument < end) return read_point(text, argument, end);
   if (word == "call") return use_all(text, std::min(text.code().find('(', argument), end), end);
+  if (word == "alter") displaces_ = true;
   const std::string name = location_name(text, begin, end);
-  if (text.next(begin + name.size()) == '=') changes_.changed(name, begin);
+  const bool assigns = text.next(begin + name.size()) == '=';
+  if (assigns) changes_.changed(name, begin);
   if (word == "here" && argument < end) {
     not_sent_to_[location_key(location_name(text, argument, end))] = "it is taught anew when the program runs (HERE)";
+    return;
   }
   if (word == "tool" || word == "base") {
     std::size_t first = std::min(argument, end);
     const std::string written = location_key(text.trimmed(first, end)), named = written.empty() ? "null" : written;
     (word == "tool" ? tools_ : bases_).insert(named);
-    word == "tool" ? way_.tool(begin, named) : way_.base(begin, named);
+    return word == "tool" ? way_.tool(begin, named) : way_.base(begin, named);
   }
+  if (word == "decompose") return;  // only reads
+  use_all(text, std::min(assigns ? begin + name.size() : text.word_end(begin), end), end);
+  if (!assigns) add_unknown_statement(text, begin, std::min(argument, end), end, unknown_);
 }
 
 void AsStatements::read_system_line(const ProgramText& text, std::size_t begin, std::size_t end) {

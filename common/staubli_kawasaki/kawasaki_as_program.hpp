@@ -16,6 +16,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/location_frames.hpp"
+#include "staubli_kawasaki/location_names.hpp"
 
 namespace demecal::inline staubli_kawasaki {
 
@@ -49,6 +50,9 @@ class AsStatements {
   std::string not_sent_to(const std::string& name) const;
   /// Why poses are not reached in a configuration that can be told; empty: nothing sets one.
   const std::string& sets_configuration() const { return sets_configuration_; }
+  /// Whether motions may be altered while they run (ALTER).
+  bool displaces() const { return displaces_; }
+  const UnknownStatements& unknown() const { return unknown_; }
   /// Whether TOOL or BASE names this location, so that nothing moves to it.
   bool is_frame(const std::string& name) const { return tools_.contains(name) || bases_.contains(name); }
 
@@ -93,6 +97,8 @@ class AsStatements {
   bool system_base_ = false;  ///< .SYSDATA moves the base
   LocationFrames way_;
   std::string sets_configuration_{};
+  bool displaces_ = false;
+  UnknownStatements unknown_{};
 };
 
 }  // namespace demecal::inline staubli_kawasaki

@@ -42,6 +42,10 @@ std::string location_key(std::string_view name) {
 std::vector<std::string> location_names(const ProgramText& text, std::size_t begin, std::size_t end) {
   std::vector<std::string> found;
   for (std::size_t at = begin; at < end;) {
+    if (text.code()[at] == '"') {  // what is printed
+      at = std::min(text.code().find('"', at + 1), end - 1) + 1;
+      continue;
+    }
     const std::string name = location_name(text, at, end);
     if (!name.empty()) found.push_back(name);
     at = name.empty() ? at + 1 : at + name.size();
@@ -67,6 +71,25 @@ void note_untold_locations(const ProgramText& text, const std::map<std::string, 
                           reason.empty() ? "it is not given as numbers in this program" : reason);
     }
   }
+}
+
+void add_unknown_statement(const ProgramText& text, std::size_t statement, std::size_t begin, std::size_t end,
+                           UnknownStatements& statements) {
+  while (begin < end) {
+    const std::size_t stop = end_of_argument(text.code(), begin, end);
+    std::size_t first = begin;
+    const std::string_view argument = text.trimmed(first, stop);
+    const std::string name = location_name(text, first, first + argument.size());
+    if (!name.empty() && name.size() == argument.size()) statements.emplace_back(statement, location_key(name));
+    begin = stop + 1;
+  }
+}
+
+void end_at_unknown_statements(const UnknownStatements& statements, Program& program) {
+  std::set<std::string> given;
+  for (const Target& target : program.targets) given.insert(location_key(target.name));
+  for (const auto& [begin, name] : statements)
+    if (given.contains(name)) program.joints_lost_at.push_back(begin);
 }
 
 std::size_t find_word(const ProgramText& text, std::size_t begin, std::size_t end, std::string_view word) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "parsed_programs/program.hpp"
@@ -18,12 +19,22 @@ namespace demecal::inline staubli_kawasaki {
 std::string location_name(const ProgramText& text, std::size_t begin, std::size_t end);
 /// By which names are one: in small letters, without blanks.
 std::string location_key(std::string_view name);
-/// All names that stand in [begin, end), those of functions and words included.
+/// All names that stand in [begin, end), those of functions and words included; what is quoted has none.
 std::vector<std::string> location_names(const ProgramText& text, std::size_t begin, std::size_t end);
 /// Says in `program` where motions go to locations that are none of its targets; `why` gives a reason by the key, or
 /// nothing. A computed index may be any of an array.
 void note_untold_locations(const ProgramText& text, const std::map<std::string, std::vector<TargetUse>>& uses,
                            const std::function<std::string(const std::string&)>& why, Program& program);
+/// Why targets are left of a program that lets sensors alter its motions.
+inline constexpr const char* kAltered =
+    "the program lets motions be altered while they run (ALTER), and where it does is not followed";
+/// Statements that are none of those known, where they stand, and the locations that each may move to: its arguments.
+using UnknownStatements = std::vector<std::pair<std::size_t, std::string>>;
+/// Adds the statement at `statement`, whose arguments are [begin, end), for those that are nothing but a name.
+void add_unknown_statement(const ProgramText& text, std::size_t statement, std::size_t begin, std::size_t end,
+                           UnknownStatements& statements);
+/// What is known of the joints ends at those that are given one of the program's targets.
+void end_at_unknown_statements(const UnknownStatements& statements, Program& program);
 /// Where the word, in small letters, stands in [begin, end); the end where it does not.
 std::size_t find_word(const ProgramText& text, std::size_t begin, std::size_t end, std::string_view word);
 /// Where the argument that begins at `begin` ends: a comma outside of parentheses, or `end`.

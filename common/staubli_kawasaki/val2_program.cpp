@@ -86,7 +86,9 @@ void Val2Statements::read_line(std::size_t begin, std::size_t end) {
   if (std::find(kConfigurations.begin(), kConfigurations.end(), word) != kConfigurations.end())
     sets_configuration_ = word;
   if (word == "here") return changes_.recorded(location_name(text_, argument, end), begin);
-  if (word != "tool" && word != "base") return;
+  if (word == "alter") displaces_ = true;
+  if (word == "decompose") return;  // only reads
+  if (word != "tool" && word != "base") return read_other(begin, word_end, end);
   std::string named = lower_case(code.substr(word_end, end - word_end));
   std::erase_if(named, [](char letter) { return letter == ' ' || letter == '\t' || letter == '\r'; });
   if (named.empty()) named = word == "tool" ? "null" : "0";
@@ -115,6 +117,12 @@ void Val2Statements::read_motion(const std::string& word, std::size_t statement,
   const auto cell = cell_at(text_.code(), distance, number.size(), {});
   approaches_.push_back({statement, name, cell ? std::optional(cell->value) : std::nullopt});
   own.near = place_before(approaches_.back().distance_mm);
+}
+
+/// What is none of the statements known, such as WINDOW, and what computes: y = DX(a), IF DISTANCE(a, b) < 5 THEN.
+void Val2Statements::read_other(std::size_t statement, std::size_t word_end, std::size_t end) {
+  for (const std::string& name : location_names(text_, word_end, end)) changes_.used(name, statement);
+  add_unknown_statement(text_, statement, word_end, end, unknown_);
 }
 
 /// "SET a = b": only copies and SHIFT leave the locations on the right what they are.
@@ -201,7 +209,9 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
     take_uses(uses, target);
   }
   changes_.mark(program.targets);
+  end_at_unknown_statements(unknown_, program);
   for (Target& target : program.targets) {
+    if (displaces_ && target.not_sent_to.empty()) target.not_sent_to = kAltered;
     if (sets_configuration_.empty() || !target.is_pose() || !target.not_sent_to.empty()) continue;
     target.not_sent_to =
         "the program sets the arm's configuration (" + sets_configuration_ + "), and where it holds is not followed";

@@ -12,6 +12,7 @@
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/location_frames.hpp"
+#include "staubli_kawasaki/location_names.hpp"
 
 namespace demecal::inline staubli_kawasaki {
 
@@ -33,6 +34,7 @@ class Val2Statements {
  private:
   void read_motion(const std::string& word, std::size_t statement, std::size_t begin, std::size_t end);
   void read_set(std::size_t begin, std::size_t end);
+  void read_other(std::size_t statement, std::size_t word_end, std::size_t end);
   KnownFrame tool(const std::string& word, const Program& program, const ControllerData& controller);
   static KnownFrame base(const std::string& word, const ControllerData& controller);
   StatedFrames frames(const Program& program, const ControllerData& controller);
@@ -54,6 +56,8 @@ class Val2Statements {
   std::vector<Approach> approaches_{};
   std::vector<std::pair<std::size_t, std::string>> computed_{};  ///< destinations that are no locations
   std::string sets_configuration_{};                             ///< an instruction that does
+  bool displaces_ = false;                                       ///< ALTER does
+  UnknownStatements unknown_{};
 };
 
 }  // namespace demecal::inline staubli_kawasaki

@@ -27,6 +27,17 @@ bool keeps_argument(std::string_view function, std::size_t argument) {
                      [&](const Kept& kept) { return kept.function == function && argument < kept.arguments; });
 }
 
+/// How many places a motion is sent to; 0: it is none. alterMovel and the like are shifted while they run, and in
+/// movelf and the like the arm gives way to forces.
+std::size_t goals_of_motion(std::string_view function) {
+  for (const std::string_view plain : {"movej", "movel", "movec"}) {
+    const bool altered = function.starts_with("alterM") && function.substr(6) == plain.substr(1);
+    const bool compliant = function.size() == plain.size() + 1 && function.starts_with(plain) && function.back() == 'f';
+    if (function == plain || altered || compliant) return plain == "movec" ? 2 : 1;
+  }
+  return 0;
+}
+
 /// The code of the programs without comments; all else is blank.
 std::string bare_code(const ProgramText& text, const std::vector<Val3Code>& programs) {
   constexpr std::string_view kOpening = "<![CDATA[", kClosing = "]]>";
@@ -123,7 +134,7 @@ std::size_t Val3Statements::read_call(std::size_t begin, std::size_t open, std::
   const std::string function(code_.code().substr(begin, code_.word_end(begin) - begin));
   const std::size_t close = close_of(open, end);
   const std::vector<Argument> given = arguments(open, close);
-  if (function == "movej" || function == "movel" || function == "movec") {
+  if (goals_of_motion(function) > 0) {
     read_motion(function, begin, given);
   } else {
     for (std::size_t i = 0; i < given.size(); ++i)
@@ -133,11 +144,13 @@ std::size_t Val3Statements::read_call(std::size_t begin, std::size_t open, std::
 }
 
 void Val3Statements::read_motion(const std::string& word, std::size_t begin, const std::vector<Argument>& given) {
-  const std::size_t goals = word == "movec" ? 2 : 1;
+  const std::size_t goals = goals_of_motion(word);
+  const bool plain = word.starts_with("move") && word.size() == 5;
   Val3Motion motion{begin, word == "movej" ? Motion::joints : Motion::line, ""};
   if (given.size() > goals) motion.tool = only_reference(given[goals]).name;
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (i < goals) {
+      if (!plain) read(given[i].begin, given[i].end, word);
       read_goal(given[i], motion);
     } else if (i > goals || motion.tool.empty()) {
       read(given[i].begin, given[i].end, "kept");
