@@ -61,14 +61,8 @@ class Waker {
   std::jthread thread_;
 };
 
-/// Gives back memory that runs left: what one thread claims and another frees stays claimed otherwise. Not after
-/// every one of many short runs.
+/// Gives back memory that runs left: what one thread claims and another frees stays claimed otherwise.
 void trim_memory() {
-  constexpr std::chrono::seconds kLeastInterval{5};
-  static std::chrono::steady_clock::time_point last{};
-  const auto now = std::chrono::steady_clock::now();
-  if (now - last < kLeastInterval) return;
-  last = now;
   ::malloc_trim(0);
 }
 
@@ -108,7 +102,7 @@ int main(int argc, char** argv) {
   options.host = host_name();
   options.process = static_cast<std::uint32_t>(::getpid());
   options.name = unique_name(options.host);
-  options.after_run = trim_memory;
+  options.after_runs = trim_memory;
   try {
     const auto transport = demecal::join_dds(*dds, demecal::Role::worker, options.name);
     const Waker waker(*transport);

@@ -152,7 +152,7 @@ std::vector<std::shared_ptr<HostedIsland>> linked_with(
 
 struct IslandHostOptions {
   std::uint32_t slots = 1;                   ///< islands computed at once
-  std::chrono::milliseconds batch{20};       ///< about so long, islands that need nobody else breed without a message
+  std::chrono::milliseconds batch{100};      ///< about so long, islands that need nobody else breed without a message
   std::function<void()> after_generation{};  ///< or set, by the slot that bred it: for simulated work
 };
 

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kHeartbeat = kLease / 5, kLeastHeartbeat = kLease / 10;
 constexpr std::chrono::milliseconds kShutdownTimeout{1000}, kBatchTimeout{200}, kIdleWait{10};
-constexpr std::chrono::milliseconds kAnnouncement{1000};
+constexpr std::chrono::milliseconds kAnnouncement{1000}, kIdleAfterRuns{1000};
 constexpr std::size_t kMostEarlyTasks = 65536, kMostEnded = 4096;
 
 constexpr const char* kNotAssigned = "migrants of an island that no task gives it";
@@ -256,13 +256,25 @@ void Worker::forget_run(RunId run) {
   for (const auto& [worker, count] : unverified_.forget(run)) {
     for (std::size_t i = 0; i < count && !assigned.contains(worker); ++i) transport_.reject("", kNotAssigned);
   }
-  if (options_.after_run) options_.after_run();
+  idle_since_ = std::chrono::steady_clock::now();
+}
+
+/// What is to be done between runs must not take the time of the next one, which may follow at once.
+void Worker::note_idleness(WaitedShare::Time now) {
+  if (!idle_since_) return;
+  if (!host_.islands().empty() || !host_.is_idle()) {
+    idle_since_ = now;
+  } else if (now - *idle_since_ >= kIdleAfterRuns) {
+    idle_since_.reset();
+    if (options_.after_runs) options_.after_runs();
+  }
 }
 
 void Worker::keep_alive() {
   const WaitedShare::Time now = std::chrono::steady_clock::now();
   if (now - asserted_ < kLeastHeartbeat) return;
   asserted_ = now;
+  note_idleness(now);
   const std::uint64_t heartbeats = host_.heartbeats();
   if (!host_.is_idle() && heartbeats == heartbeats_seen_) return;  // a slot that hangs must not look alive
   heartbeats_seen_ = heartbeats;

@@ -29,8 +29,8 @@ struct WorkerOptions {
   RunId only_run = 0;                                   ///< 0: serves every run; else those of this one's publisher
   std::chrono::milliseconds progress_interval{250};     ///< at least, between two reports of an island's progress
   std::chrono::milliseconds checkpoint_interval{1000};  ///< at least, but for islands of many epochs a second
-  std::chrono::milliseconds batch{20};       ///< about so long, islands that need nobody else breed without a message
-  std::function<void()> after_run{};         ///< called when what was kept of a run has been dropped
+  std::chrono::milliseconds batch{100};      ///< about so long, islands that need nobody else breed without a message
+  std::function<void()> after_runs{};        ///< called when no island has been here for a second after a run
   std::function<void()> after_generation{};  ///< or set, by the slot that bred it: for simulated work
 };
 
@@ -66,6 +66,7 @@ class Worker {
   void announce(bool leaving);
   void forget_run(RunId run);
   void keep_alive();
+  void note_idleness(WaitedShare::Time now);
 
   Transport& transport_;
   WorkerOptions options_;
@@ -78,6 +79,7 @@ class Worker {
   std::deque<RunId> ended_in_order_;  ///< the last ones are remembered
   std::uint64_t heartbeats_seen_ = 0;
   WaitedShare::Time announced_{}, asserted_{};
+  std::optional<WaitedShare::Time> idle_since_;  ///< the end of a run, or an island that was here after it
 };
 
 }  // namespace demecal::inline hosting

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <ratio>
+#include <set>
 #include <utility>
 
 namespace demecal::inline scheduling {
@@ -29,7 +30,7 @@ void Assignment::finish(IslandKey key) {
   if (const auto owner = workers_.find(island.owner); owner != workers_.end()) --owner->second.unfinished;
 }
 
-std::vector<Move> Assignment::balance() {
+std::vector<Move> Assignment::balance(const std::function<bool(IslandKey)>& may_move) {
   std::vector<Move> moves;
   if (workers_.empty()) return moves;
   std::string filled;
@@ -38,13 +39,19 @@ std::vector<Move> Assignment::balance() {
     if (filled.empty() || load(filled, 1) > fair_load()) filled = least_loaded();
     assign(key, filled, moves);
   }
+  // Who still has work needs none yet: where all islands of a run end at about the same time, moving them as they do
+  // would cost more than it saves.
+  std::set<std::string> idle;
+  for (const auto& [name, worker] : workers_)
+    if (worker.unfinished < static_cast<int>(worker.slots)) idle.insert(name);
   while (true) {
     const std::string from = most_loaded(), to = least_loaded();
-    if (load(to, 1) >= load(from, 0)) return moves;
+    if (!idle.contains(to) || load(to, 1) >= load(from, 0)) return moves;
     // The last one in key order: its neighbours most often sit with the worker that it leaves.
     const auto last = std::find_if(islands_.rbegin(), islands_.rend(), [&](const auto& entry) {
-      return entry.second.owner == from && !entry.second.is_finished;
+      return entry.second.owner == from && !entry.second.is_finished && (!may_move || may_move(entry.first));
     });
+    if (last == islands_.rend()) return moves;
     assign(last->first, to, moves);
   }
 }

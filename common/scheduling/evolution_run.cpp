@@ -13,11 +13,15 @@
 namespace demecal::inline scheduling {
 namespace {
 
-constexpr std::chrono::milliseconds kRunTick{100};
+constexpr std::chrono::milliseconds kRunTick{100}, kNoWait{0};
+/// Messages, between two looks at whether the run is to end.
+constexpr int kMostWaiting = 1000;
 constexpr std::chrono::milliseconds kRunShutdownTimeout{2000};
 /// How long what the last owner of an island still had to report may be on its way.
 constexpr std::chrono::milliseconds kLateGrace{500};
 constexpr std::chrono::milliseconds kDrainTimeout = kLateGrace;
+/// An island that takes longer where it is is given to a worker that has less to do.
+constexpr std::chrono::milliseconds kWorthMoving{200};
 
 }  // namespace
 
@@ -30,7 +34,8 @@ EvolutionRun::EvolutionRun(Transport& transport, RunState state, RunObserver& ob
       state_(std::move(state)),
       observer_(observer),
       assignment_(islands(state_.data().archipelago)),
-      stalls_(state_.data().archipelago, Clock::now()) {
+      stalls_(state_.data().archipelago, Clock::now()),
+      pace_(static_cast<std::uint32_t>(state_.data().parameters.number_generations)) {
   for (const Checkpoint& known : state_.checkpoints()) stalls_.reached(known.island, known.state.epoch, Clock::now());
   for (const Outcome& outcome : state_.outcomes()) {
     assignment_.finish(outcome.island);
@@ -67,6 +72,7 @@ RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patien
   assign_islands();
   while (!state_.all_finished() || waits_for_history()) {
     if (const std::optional<Message> message = transport_.receive(kRunTick)) receive(*message);
+    receive_waiting();
     assign_islands();
     const Clock::time_point now = Clock::now();
     if (assignment_.has_workers()) last_worker = now;
@@ -82,6 +88,15 @@ RunEnd EvolutionRun::work(const std::atomic<bool>& interrupt, RunPatience patien
     if (now - last_news_ >= patience.news && state_.any_out_of_reach()) return RunEnd::stuck;
   }
   return RunEnd::finished;
+}
+
+/// What has come already: the workers among it are to share the islands before any begins with them.
+void EvolutionRun::receive_waiting() {
+  for (int i = 0; i < kMostWaiting; ++i) {
+    const std::optional<Message> message = transport_.receive(kNoWait);
+    if (!message) return;
+    receive(*message);
+  }
 }
 
 /// The last figures of an island may come after its outcome; they are worth a moment.
@@ -153,6 +168,7 @@ void EvolutionRun::take(const Progress& progress) {
   AssignedIsland& island = islands_.at(progress.island);
   if (island.worker == progress.worker && island.epoch < progress.epoch) island.answered = true;
   stalls_.reached(progress.island, progress.epoch, last_news_);
+  pace_.reached(progress.island, progress.generation, last_news_);
   observer_.on_progress(progress);
 }
 
@@ -223,7 +239,18 @@ void EvolutionRun::reject_strangers() {
 }
 
 void EvolutionRun::assign_islands() {
-  for (const Move& move : assignment_.balance()) assign(move.island, move.worker);
+  const auto may_move = [this](IslandKey island) { return is_worth_moving(island); };
+  for (const Move& move : assignment_.balance(may_move)) assign(move.island, move.worker);
+}
+
+/// From a worker that is there: what it is handed over by travels, its new owner begins at an older state, and its
+/// neighbours' migrants then travel, too. Not where it is nearly finished, nor where it has hardly arrived.
+bool EvolutionRun::is_worth_moving(IslandKey key) const {
+  const auto island = islands_.find(key);
+  if (island == islands_.end()) return true;
+  const Clock::time_point now = Clock::now();
+  if (island->second.attempt > 1 && now - island->second.moment < kLateGrace) return false;
+  return pace_.left(key, now) >= kWorthMoving;
 }
 
 void EvolutionRun::assign(IslandKey key, const std::string& worker) {
@@ -236,6 +263,7 @@ void EvolutionRun::assign(IslandKey key, const std::string& worker) {
   island.answered = false;
   island.owners.insert(worker);
   stalls_.assigned(key, task.start.epoch, island.moment);
+  pace_.assigned(key, task.start.generation, island.moment);
   transport_.publish(task);
 }
 

@@ -14,6 +14,7 @@
 #include "evolution/archipelago.hpp"
 #include "protocol/messages.hpp"
 #include "scheduling/assignment.hpp"
+#include "scheduling/island_pace.hpp"
 #include "scheduling/run_state.hpp"
 #include "transport/transport.hpp"
 
@@ -75,6 +76,7 @@ class EvolutionRun {
   };
 
   RunEnd work(const std::atomic<bool>& interrupt, RunPatience patience);
+  void receive_waiting();
   bool waits_for_history();
   void end(Control::State state);
   void drain_final_messages();
@@ -91,6 +93,7 @@ class EvolutionRun {
   void end_quarantines(Clock::time_point now);
   void reject_strangers();
   void assign_islands();
+  bool is_worth_moving(IslandKey island) const;
   void assign(IslandKey island, const std::string& worker);
   void renew_assignments();
   void renew_assignment(IslandKey island);
@@ -100,6 +103,7 @@ class EvolutionRun {
   RunObserver& observer_;
   Assignment assignment_;
   StallDetector stalls_;
+  IslandPace pace_;
   std::map<IslandKey, AssignedIsland> islands_;
   std::map<std::string, KnownWorker> workers_;
   std::size_t foreign_senders_ = 0;  ///< of messages of other runs

@@ -57,5 +57,17 @@ TEST(SpeedUp, IsTheMedianOfPairs) {
   EXPECT_EQ(pairs.greatest, 4.0);
 }
 
+TEST(SpeedUp, IsAllowedByTheBusierWorkerAndByAllThatTwoCoresHaveToDo) {
+  DistributionFigures one, uneven, costly;
+  one.worker_s = 2.0;
+  uneven.worker_s = 2.0;
+  uneven.busiest_worker_s = 1.25;
+  costly = uneven;
+  costly.coordinator_s = 1.0;
+  one.wall_s = uneven.wall_s = costly.wall_s = 1.0;
+  EXPECT_EQ(speed_up({one}, {uneven}).allowed, 1.6);
+  EXPECT_NEAR(speed_up({one}, {costly}).allowed, 2.0 / 1.5, 1e-12);
+}
+
 }  // namespace
 }  // namespace demecal::bench

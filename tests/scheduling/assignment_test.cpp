@@ -87,6 +87,35 @@ TEST(Assignment, FinishedIslandsAreNoLoad) {
   EXPECT_TRUE(assignment.balance().empty());
 }
 
+TEST(Assignment, WhoStillHasWorkIsGivenNoMoreOfAnothers) {
+  Assignment assignment(some_islands(6));
+  assignment.add_worker("a", 1);
+  assignment.add_worker("b", 1);
+  std::vector<IslandKey> of_a;
+  for (const Move& move : assignment.balance())
+    if (move.worker == "a") of_a.push_back(move.island);
+  ASSERT_EQ(of_a.size(), 3U);
+  assignment.finish(of_a[0]);
+  assignment.finish(of_a[1]);
+  EXPECT_TRUE(assignment.balance().empty());
+  assignment.finish(of_a[2]);
+  const std::vector<Move> moves = assignment.balance();
+  ASSERT_EQ(moves.size(), 1U);
+  EXPECT_EQ(moves[0].worker, "a");
+}
+
+TEST(Assignment, MovesOnlyWhatMayMoveAndGivesAwayWhatHasNoWorker) {
+  Assignment assignment(some_islands(6));
+  assignment.add_worker("a", 1);
+  const auto none = [](IslandKey) { return false; };
+  EXPECT_EQ(assignment.balance(none).size(), 6U);
+  assignment.add_worker("b", 1);
+  EXPECT_TRUE(assignment.balance(none).empty());
+  const std::vector<Move> moves = assignment.balance([](IslandKey island) { return island.joint == 0; });
+  ASSERT_EQ(moves.size(), 3U);
+  for (const Move& move : moves) EXPECT_EQ(move.island.joint, 0U);
+}
+
 TEST(Assignment, MoreWorkersThanIslandsLeavesSomeIdle) {
   Assignment assignment(some_islands(3));
   for (const char* worker : {"a", "b", "c", "d", "e"}) assignment.add_worker(worker, 1);

@@ -1,10 +1,22 @@
 #include "counted_transport.hpp"
 
+#include <time.h>
+
 #include <algorithm>
 
 #include "protocol/message_bytes.hpp"
 
 namespace demecal::bench {
+namespace {
+
+/// Processor time of this thread, s.
+double seconds_of_this_thread() {
+  timespec time{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+}  // namespace
 
 bool CountedTransport::await_workers(std::size_t count, std::chrono::milliseconds patience) {
   const auto end = std::chrono::steady_clock::now() + patience;
@@ -24,7 +36,11 @@ std::optional<Message> CountedTransport::receive(std::chrono::milliseconds patie
     return known;
   }
   std::optional<Message> message = ForwardingTransport::receive(patience);
-  if (message) received_.push_back(*message);
+  if (message) {
+    const double before_s = seconds_of_this_thread();
+    received_.push_back(*message);
+    counting_s_ += seconds_of_this_thread() - before_s;
+  }
   return message;
 }
 

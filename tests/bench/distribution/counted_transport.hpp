@@ -25,6 +25,8 @@ class CountedTransport : public ForwardingTransport {
   /// What islands have said: progress, checkpoints, outcomes, and the migrants that neighbours of other workers got,
   /// those by the tasks and of the size of the last.
   Traffic traffic(const CalibrationData& data) const;
+  /// Processor time that counting took, s.
+  double counting_s() const { return counting_s_; }
 
   void publish(const Message& message) override;
   std::optional<Message> receive(std::chrono::milliseconds patience) override;
@@ -34,6 +36,7 @@ class CountedTransport : public ForwardingTransport {
   std::map<std::string, WorkerStatus> to_tell_;
   std::map<IslandKey, std::string> holders_;
   std::vector<Message> received_;  ///< counted when the run is over, not to take its time
+  double counting_s_ = 0.0;
 };
 
 std::size_t epochs_of(const CalibrationData& data);

@@ -12,8 +12,11 @@ namespace demecal::bench {
 struct SpeedUp {
   double median = 0.0;                        ///< over pairs of runs, one worker's time over two workers'
   double least = 0.0, greatest = 0.0;         ///< of the pairs
+  double allowed = 0.0;                       ///< median of what processor time alone allows on two cores
   std::vector<DistributionFigures> one, two;  ///< parallel
 };
+/// What other programs do on the machine hardly changes `allowed`, which counts no waiting: one worker's processor time
+/// over that of the busier of two, or over half of all that two and the coordinator take.
 SpeedUp speed_up(std::vector<DistributionFigures> one, std::vector<DistributionFigures> two);
 
 /// Of all workers' processor time, what did not breed.

@@ -25,6 +25,7 @@ struct Options {
   std::uint32_t epochs = 12;
   double sleep_s = 0.5;
   std::uint32_t slots = kSlots;  ///< of a worker that is served
+  bool sleeping = true;
   bool json = false;
 };
 
@@ -89,6 +90,7 @@ int main(int argc, char** argv) {
   app.add_option("--generations", options.generations, "of the pairs; Table 6-1 has 200")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000));
+  app.add_flag("!--no-sleeping", options.sleeping, "only the pairs, without islands that sleep");
   app.add_option("--epochs", options.epochs, "of sleeping islands")->capture_default_str()->check(CLI::Range(2, 10000));
   app.add_option("--sleep-s", options.sleep_s, "per epoch")->capture_default_str()->check(CLI::Range(0.001, 1.0));
   app.add_option("--domain", options.dds.domain, "DDS domain")->capture_default_str()->check(CLI::Range(0, 230));
@@ -105,7 +107,7 @@ int main(int argc, char** argv) {
       return 0;
     }
     Distribution all{pairs_of(options), {}};
-    all.sleeping = sleepers(options);
+    if (options.sleeping) all.sleeping = sleepers(options);
     options.json ? write_json(std::cout, all) : write_table(std::cout, all);
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';

@@ -1,5 +1,6 @@
 #include "measure.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -22,14 +23,17 @@ Reading read(const std::map<std::string, WorkerStatus>& workers) {
   return reading;
 }
 
-Split used(const Reading& before, const Reading& after) {
-  Split all;
-  for (const auto& [name, threads] : after) {
-    const Split one = used_between(before.at(name), threads);
-    all.total_s += one.total_s;
-    all.busiest_thread_s += one.busiest_thread_s;
-  }
+/// Of each worker.
+std::vector<Split> used(const Reading& before, const Reading& after) {
+  std::vector<Split> all;
+  for (const auto& [name, threads] : after) all.push_back(used_between(before.at(name), threads));
   return all;
+}
+
+double total_s(const std::vector<Split>& workers) {
+  double total_s = 0.0;
+  for (const Split& worker : workers) total_s += worker.total_s;
+  return total_s;
 }
 
 LocalWorkers started(const DdsOptions& dds, const WorkerProcesses& workers) {
@@ -44,7 +48,7 @@ double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chron
   if (idle.count() == 0) return std::numeric_limits<double>::quiet_NaN();
   const Reading before = read(workers);
   std::this_thread::sleep_for(idle);
-  const double seconds = used(before, read(workers)).total_s;
+  const double seconds = total_s(used(before, read(workers)));
   return seconds / static_cast<double>(idle.count()) / static_cast<double>(workers.size());
 }
 
@@ -68,11 +72,14 @@ DistributionFigures measure(const DdsOptions& dds, const WorkerProcesses& proces
   const auto begin = std::chrono::steady_clock::now();
   const RunResult result = run.run(interrupt, {.worker = kPatience});
   figures.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  figures.coordinator_s = own_seconds() - own_before;
+  figures.coordinator_s = own_seconds() - own_before - transport.counting_s();
   if (result.end != RunEnd::finished) throw std::runtime_error("the run did not finish");
-  const Split split = used(before, read(transport.workers()));
-  figures.worker_s = split.total_s;
-  figures.breeding_s = split.busiest_thread_s;
+  const std::vector<Split> split = used(before, read(transport.workers()));
+  figures.worker_s = total_s(split);
+  for (const Split& worker : split) {
+    figures.busiest_worker_s = std::max(figures.busiest_worker_s, worker.total_s);
+    figures.breeding_s += worker.busiest_thread_s;
+  }
   figures.traffic = transport.traffic(data);
   return figures;
 }

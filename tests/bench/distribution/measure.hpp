@@ -20,6 +20,7 @@ struct WorkerProcesses {
 struct DistributionFigures {
   double wall_s = 0.0;             ///< from the run's beginning to its last outcome; the workers are there before
   double worker_s = 0.0;           ///< processor time of the workers
+  double busiest_worker_s = 0.0;   ///< of it, that of the worker that took most
   double breeding_s = 0.0;         ///< of it, that of the threads that breed: the busiest of each process
   double coordinator_s = 0.0;      ///< processor time
   double idle_worker_share = 0.0;  ///< of one core, that a worker without work takes; NaN where not asked for
