@@ -44,8 +44,9 @@ double row_variance(const Projection& projection) {
 
 /// Of the scatter of positions, per axis: what joints have in it, and what poses share. 0 where
 /// nothing tells, and of contacts, whose places move with the arm.
-double arm_scatter_m(const DataSet& data, const Linearization& linearization, const DiagnosedModel& model) {
-  const auto noise = has_contacts(data) ? std::nullopt : noise_shown(linearization, model.smooth);
+double arm_scatter_m(const DiagnosisProblem& problem, const Linearization& linearization, const DiagnosedModel& model) {
+  const DataSet& data = problem.data;
+  const auto noise = has_contacts(data) ? std::nullopt : noise_shown(problem, linearization, model.smooth);
   if (!noise || !(model.scales[kPosition] > 0.0)) return 0.0;
   const ResidualField& field = linearization.fitted;
   double squares = 0.0, poses = 0.0;
@@ -110,13 +111,14 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
   model.robot = with_own_contacts(robot, data, poses);
   model.smooth = smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset);
   model.scales = scatter_of(data, model.robot, observe(data, poses, robot));
-  const Linearization linearization = linearize({data, declared, poses, {}}, model);
+  const DiagnosisProblem problem{data, declared, poses, {}};
+  const Linearization linearization = linearize(problem, model);
   const double variance = row_variance(linearization.projection);
   Eigen::MatrixXd covariance = variance * linearization.covariance;
   widen(linearization, covariance);
   FittedPosterior fitted{{{}, {}, {}}, model.scales};
   for (double& scale : fitted.scatter) scale *= std::sqrt(variance);
-  fitted.arm_scatter_m = arm_scatter_m(data, linearization, model);
+  fitted.arm_scatter_m = arm_scatter_m(problem, linearization, model);
   Posterior& posterior = fitted.posterior;
   std::vector<Eigen::Index> kept;  // all but contacts' and stations' places: what they take is in the rest's covariance
   for (std::size_t i = 0; i < linearization.ids.size(); ++i) {

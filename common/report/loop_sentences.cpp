@@ -51,8 +51,12 @@ bool is_rare(const DecoyEntry& decoy) {
   return decoy.p_left.value_or(1.0) <= kRare;
 }
 
-/// "joints, load and temperature": on which of these what is left was looked at.
-std::string dependences(const Report& report) {
+bool shared_in_order(const Report& report) {
+  return report.noise && report.noise->shared_in_order_mm.value_or(0.0) > 0.0;
+}
+
+/// "joints, load and temperature": on which of these what is left was looked at; not `time` where that is not asked.
+std::string dependences(const Report& report, bool time) {
   struct Dependence {
     std::string_view words;
     Circumstance circumstance;
@@ -68,6 +72,7 @@ std::string dependences(const Report& report) {
       const EffectLaw* const law = find_law(unseen.kind);
       return law != nullptr && law->prerequisite() == one.circumstance;
     };
+    if (one.circumstance == Circumstance::time && !time) continue;
     if (one.circumstance == Circumstance::none || std::ranges::none_of(report.untestable, lacks_it))
       words.emplace_back(one.words);
   }
@@ -125,10 +130,17 @@ std::string statistics_sentences(const Report& report) {
   }
   if (report.structure_left_p) {
     constexpr double kDetected = 0.05;
-    const char* const sentence = *report.structure_left_p > kDetected
-                                     ? "No remaining dependence on {} was detected (p = {})."
-                                     : "What is left still depends on {} (p = {}).";
-    add(fmt::format(fmt::runtime(sentence), dependences(report), probability(report.structure_left_p)));
+    const std::string p = probability(report.structure_left_p);
+    // What goes by the order of measuring was taken out before the test: it says nothing of time then.
+    if (*report.structure_left_p <= kDetected)
+      add(fmt::format("What is left still depends on {} (p = {}).", dependences(report, true), p));
+    else if (shared_in_order(report))
+      add(
+          fmt::format("Beside the {:.3f} mm that goes by the order of measuring no remaining dependence on {} was "
+                      "detected (p = {}).",
+                      *report.noise->shared_in_order_mm, dependences(report, false), p));
+    else
+      add(fmt::format("No remaining dependence on {} was detected (p = {}).", dependences(report, true), p));
   }
   return text;
 }

@@ -82,11 +82,13 @@ class RestrictedLikelihood {
 };
 
 /// The same of the residuals over the fitted poses of a model that has no noise; nothing where no pose takes part.
-std::optional<NoiseEstimate> noise_shown(const Linearization& linearization, const SmoothCorrections& smooth);
+std::optional<NoiseEstimate> noise_shown(const DiagnosisProblem& problem, const Linearization& linearization,
+                                         const SmoothCorrections& smooth);
 
 /// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show. Poses
 /// far out have no part in it. Smooth terms count whether they were chosen or not, slow ones first, as many as leave
-/// enough distinct poses: what a choice among them explains by chance is not taken for less noise. The model as it is
+/// enough distinct poses: what a choice among them explains by chance is not taken for less noise. So does even drift
+/// where poses have times: a cause that can be named is no noise that neighbours share. The model as it is
 /// where its residuals scatter by more than noise may: 1 mrad of a joint, 5 mm that poses share.
 DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model);
 

@@ -104,6 +104,26 @@ TEST(ClosedLoopNoise, DriftInTheOrderOfMeasuringIsNotTakenForEffects) {
   EXPECT_GT(found.noise.order / kArms, 2.0);
 }
 
+/// A straight line is what slow noise that neighbours share looks like; with times it is a cause that can be named.
+TEST(ClosedLoopNoise, EvenDriftInTimeIsNamed) {
+  int named = 0;
+  double after = 0.0;
+  for (std::uint64_t seed = 61; seed < 61 + kArms; ++seed) {
+    DataSet data = simulate(waving_scenario(seed));
+    const double last_s = *data.poses.back().time_s;
+    for (MeasuredPose& pose : data.poses) {
+      *pose.position_m += *pose.time_s / last_s * Eigen::Vector3d(4e-4, -6e-4, 5e-4);
+      pose.temperature_celsius.reset();
+    }
+    const LoopResult result = run_loop(data, kCorrected, quick());
+    const std::vector<Effect> effects = added(result.outcome);
+    named += effects.size() == 1 && effects.front().kind == "drift";
+    after += over_floor(result.model.robot, data) / kArms;
+  }
+  EXPECT_EQ(named, kArms);
+  EXPECT_LT(after, 1.6);
+}
+
 /// Chosen by the calibration poses, confirmed by the validation poses: these have no part in what is tried.
 TEST(ClosedLoopNoise, ValidationPosesChooseNothing) {
   Scenario loose = waving_scenario(76);

@@ -219,6 +219,17 @@ TEST(LoopWords, HaveASentenceForEveryReason) {
   EXPECT_EQ(statistics_sentences(Report{}), "");
 }
 
+TEST(LoopWords, DoNotDenyDependenceOnTimeBesideWhatGoesByTheOrderOfMeasuring) {
+  Report report;
+  report.structure_left_p = 0.22;
+  EXPECT_THAT(statistics_sentences(report), HasSubstr("approach, temperature or time was detected"));
+  report.noise.emplace().shared_in_order_mm = 0.0;
+  EXPECT_THAT(statistics_sentences(report), HasSubstr("approach, temperature or time was detected"));
+  report.noise->shared_in_order_mm = 0.153;
+  EXPECT_THAT(statistics_sentences(report), HasSubstr("Beside the 0.153 mm that goes by the order of measuring"));
+  EXPECT_THAT(statistics_sentences(report), Not(HasSubstr("time was detected")));
+}
+
 TEST(ReportPage, SaysThatARunWasInterrupted) {
   Report report = made_up_report();
   EXPECT_THAT(words_of(loop_page_of(report)), Not(HasSubstr("interrupted")));

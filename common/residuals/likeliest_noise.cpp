@@ -1,0 +1,178 @@
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "decompositions/decompositions.hpp"
+#include "residuals/noise_estimation.hpp"
+
+namespace demecal::inline residuals {
+namespace {
+
+constexpr Eigen::Index kMostLikelihoodRows = 360;  ///< in an estimate: a likelihood costs their cube
+constexpr std::size_t kRuns = 3;                   ///< of poses, where not all take part
+constexpr double kLikelier = 0.5;                  ///< nats that a component must make the residuals likelier by
+constexpr double kLikelierInOrder = 2.0;
+constexpr std::array kCorrelations{0.5, 0.8, 0.9, 0.95, 0.98, 0.995};
+constexpr std::size_t kSlow = 2;  ///< of these, the last: those of what heat does
+constexpr std::array kVariances{0.01, 0.1, 1.0, 10.0, 100.0};
+
+/// The poses of a field that take part: all, or as many as kMostLikelihoodRows allow, in kRuns runs.
+std::vector<std::size_t> taking_part(const NoiseRows& rows) {
+  const std::size_t poses = rows.group.size();
+  const double rows_of_pose =
+      static_cast<double>(rows.residual.size()) / static_cast<double>(std::max<std::size_t>(poses, 1));
+  const auto most = static_cast<std::size_t>(static_cast<double>(kMostLikelihoodRows) / std::max(rows_of_pose, 1.0));
+  std::vector<std::size_t> taken;
+  for (std::size_t i = 0; i < poses; ++i) {
+    const std::size_t length = most / kRuns, run = i * kRuns / poses, begin = (run * poses + kRuns - 1) / kRuns;
+    if (poses <= most || i - begin < length) taken.push_back(i);
+  }
+  return taken;
+}
+
+/// The smallest value of a function of a positive number, over kVariances and between the best one's neighbours.
+double likeliest_variance(const std::function<double(double)>& minus_twice_log) {
+  std::size_t best = 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < kVariances.size(); ++i) {
+    const double value = minus_twice_log(kVariances[i]);
+    if (value >= least) continue;
+    least = value;
+    best = i;
+  }
+  double lower = std::log(kVariances[best == 0 ? 0 : best - 1]),
+         upper = std::log(kVariances[std::min(best + 1, kVariances.size() - 1)]);
+  constexpr double kGolden = 0.618034;
+  constexpr int kSteps = 6;
+  double a = upper - kGolden * (upper - lower), b = lower + kGolden * (upper - lower);
+  double at_a = minus_twice_log(std::exp(a)), at_b = minus_twice_log(std::exp(b));
+  for (int step = 0; step < kSteps; ++step) {
+    if (at_a < at_b) {
+      upper = std::exchange(b, a);
+      a = upper - kGolden * (upper - lower);
+      at_b = std::exchange(at_a, minus_twice_log(std::exp(a)));
+    } else {
+      lower = std::exchange(a, b);
+      b = lower + kGolden * (upper - lower);
+      at_a = std::exchange(at_b, minus_twice_log(std::exp(b)));
+    }
+  }
+  return std::exp(0.5 * (lower + upper));
+}
+
+/// Finds the components one after another, twice where there are several.
+class Components {
+ public:
+  explicit Components(RestrictedLikelihood& likelihood) : likelihood_(likelihood), least_(value()) {}
+
+  void estimate(RestrictedLikelihood::Component component, double nats) {
+    std::array<double, 3> trial = variances;
+    trial[component] = 0.0;
+    const double without = likelihood_.minus_twice_log(trial);
+    trial[component] = likeliest_variance([&](double variance) {
+      trial[component] = variance;
+      return likelihood_.minus_twice_log(trial);
+    });
+    const double with = likelihood_.minus_twice_log(trial);
+    variances[component] = without - with > 2.0 * nats ? trial[component] : 0.0;
+    least_ = value();
+  }
+  void estimate_order(std::span<const double> correlations, double nats) {
+    const double before = least_;
+    double best = least_;
+    for (const double candidate : correlations) {
+      likelihood_.set_correlation(candidate);
+      for (const double variance : {0.3, 3.0, 30.0}) {
+        std::array<double, 3> trial = variances;
+        trial[RestrictedLikelihood::order] = variance;
+        const double value = likelihood_.minus_twice_log(trial);
+        if (value >= best) continue;
+        best = value;
+        correlation = candidate;
+      }
+    }
+    if (before - best <= 2.0 * nats) return void(correlation = 0.0);
+    likelihood_.set_correlation(correlation);
+    estimate(RestrictedLikelihood::order, nats);
+  }
+
+  /// How the joints' variances differ, which are believed to be alike within a factor of e or so (one standard
+  /// deviation of their logarithms): Fisher's scoring.
+  void estimate_joints_apart() {
+    constexpr int kSteps = 4;
+    constexpr double kSettled = 0.05;  ///< of a logarithm
+    if (variances[RestrictedLikelihood::joints] <= 0.0) return;
+    const Eigen::Index count = likelihood_.joint_shares().size();
+    const Eigen::MatrixXd alike = Eigen::MatrixXd::Identity(count, count) -
+                                  Eigen::MatrixXd::Constant(count, count, 1.0 / static_cast<double>(count));
+    for (int step = 0; step < kSteps; ++step) {
+      const auto [slope, information] = likelihood_.along_joint_variances(variances);
+      const Eigen::VectorXd logs = likelihood_.joint_shares().array().log();
+      const Eigen::MatrixXd curvature = information + alike + 1e-9 * Eigen::MatrixXd::Identity(count, count);
+      const Eigen::VectorXd change =
+          PivotedCholesky(curvature).solve(slope - alike * logs).cwiseMax(-1.0).cwiseMin(1.0);
+      likelihood_.set_joint_shares((logs + change).array().exp());
+      if (change.cwiseAbs().maxCoeff() < kSettled) break;
+    }
+    const double mean = likelihood_.joint_shares().mean();
+    variances[RestrictedLikelihood::joints] *= mean;
+    likelihood_.set_joint_shares(likelihood_.joint_shares() / mean);
+    least_ = value();
+  }
+
+  bool others_than_joints() const {
+    return variances[RestrictedLikelihood::repeats] > 0.0 || variances[RestrictedLikelihood::order] > 0.0;
+  }
+
+  std::array<double, 3> variances{};
+  double correlation = 0.0;
+
+ private:
+  double value() const { return likelihood_.minus_twice_log(variances); }
+
+  RestrictedLikelihood& likelihood_;
+  double least_;
+};
+
+}  // namespace
+
+NoiseEstimate estimate_noise(const NoiseRows& rows) {
+  constexpr Eigen::Index kFewest = 12;  ///< degrees of freedom below which nothing can be told
+  constexpr double kInOrder = 1.0;      ///< lag-one products, in their own scatter, that are worth a closer look
+  const std::vector<std::size_t> poses = taking_part(rows);
+  RestrictedLikelihood likelihood(rows, poses);
+  if (likelihood.freedom() < kFewest) return {};
+  Components components(likelihood);
+  components.estimate(RestrictedLikelihood::joints, kLikelier);
+  if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
+  double order_nats = kLikelierInOrder;
+  if (likelihood.neighbourhood() > kInOrder) components.estimate_order(kCorrelations, order_nats);
+  if (rows.drift_is_rival && components.correlation == 0.0) {
+    order_nats = 0.0;
+    components.estimate_order(std::span(kCorrelations).last(kSlow), order_nats);
+  }
+  constexpr int kSweeps = 2;  // components take from one another
+  for (int sweep = 0; sweep < kSweeps && components.others_than_joints(); ++sweep) {
+    components.estimate(RestrictedLikelihood::joints, kLikelier);
+    if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
+    if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, order_nats);
+  }
+  components.estimate_joints_apart();
+  const double scale = std::sqrt(likelihood.variance_left(components.variances));
+  const Eigen::VectorXd& shares = likelihood.joint_shares();
+  const auto& [joint, repeat, order] = components.variances;
+  return {.model = {.joint_rad = scale * std::sqrt(joint / likelihood.per_joint_square()),
+                    .repeats = std::sqrt(repeat),
+                    .order = std::sqrt(order),
+                    .correlation = order > 0.0 ? components.correlation : 0.0,
+                    .joint_shares = {shares.begin(), shares.end()}},
+          .scale = scale};
+}
+
+}  // namespace demecal::inline residuals
