@@ -259,9 +259,13 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
   certificate.view = view_of(data, poses, after);
 }
 
-}  // namespace
+/// Of poses that had no part in a model none is fitted to or chosen by, whatever set was drawn for it.
+DataSet all_judged(DataSet data) {
+  for (MeasuredPose& pose : data.poses) pose.set = PoseSet::accept;
+  return data;
+}
 
-Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run) {
+Certificate certificate_of_sets(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run) {
   const CertifiedRows rows = judged_poses(data);
   if (rows.empty()) throw InputError({data.file, 0}, "", "holds no pose to judge");
   Certificate certificate = stated(model, data, rows, run);
@@ -272,6 +276,13 @@ Certificate make_certificate(const CalibratedModel& model, const DataSet& data, 
   }
   certificate.remarks = remarks_on(certificate, model, data, run);
   return certificate;
+}
+
+}  // namespace
+
+Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run) {
+  const bool as_drawn = run.sets_stated || run.refit_base || is_calibrated_with(model, data);
+  return as_drawn ? certificate_of_sets(model, data, run) : certificate_of_sets(model, all_judged(data), run);
 }
 
 }  // namespace demecal::inline acceptance

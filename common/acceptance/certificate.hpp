@@ -27,6 +27,7 @@ struct CertifiedRun {
   std::string today;                 ///< YYYY-MM-DD, of the run
   std::string model_sha256;          ///< of the bytes of the model file
   bool refit_base = false;           ///< base and tool are fitted to the poses that are not judged first
+  bool sets_stated = true;           ///< the data say which set every pose is of; otherwise that was drawn
   std::vector<std::string> notes{};  ///< what was found of data and fields beforehand, sentences: they become remarks
 };
 
@@ -105,8 +106,9 @@ CertificateFields stated_fields(const CertificateFields& of_data, const Calibrat
                                 std::vector<std::string>& notes);
 
 /// Judges the positions that were measured or, where the judged poses only touch something, the known lengths between
-/// what they touch. Throws InputError where the data hold no pose with an error to judge, and where base and tool are
-/// to be fitted and there are no poses for that.
+/// what they touch; of data other than the model's own that state no sets, all poses, unless some of them have to tell
+/// base and tool (run.refit_base). Throws InputError where the data hold no pose with an error to judge, and where base
+/// and tool are to be fitted and there are no poses for that.
 Certificate make_certificate(const CalibratedModel& model, const DataSet& data, const CertifiedRun& run);
 
 /// "proved within 0.2 mm ..." in one sentence for whoever reads only one.

@@ -58,13 +58,20 @@ class Remarks {
 
   void add_on_set() {
     const std::string& set = certificate_.judged_set;
+    const bool own = is_calibrated_with(model_, data_);
     if (set != "accept")
-      return add("The data hold no accept poses: the " + set + " poses are judged, " +
-                 (set == "validation" ? "which took part in the choice of the model."
-                                      : "to which the model was fitted: its error elsewhere may be larger."));
-    if (!is_calibrated_with(model_, data_))
-      add("The data are another file than the model was calibrated with: whether any of these poses had a part in the "
-          "model is not known here.");
+      add("The data hold no accept poses: the " + set + " poses are judged" + (own ? part_in_model(set) : "."));
+    if (own) return;
+    if (!run_.sets_stated)
+      add(run_.refit_base ? "The data state no sets: which poses are judged was drawn."
+                          : "The data state no sets and are not those of the model: all poses are judged.");
+    add("The data are another file than the model was calibrated with: whether any of these poses had a part in the "
+        "model is not known here.");
+  }
+
+  static std::string part_in_model(const std::string& set) {
+    return set == "validation" ? ", which took part in the choice of the model."
+                               : ", to which the model was fitted: its error elsewhere may be larger.";
   }
 
   /// Of positions and lengths that an instrument saw.

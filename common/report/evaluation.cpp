@@ -13,6 +13,7 @@
 #include "kinematics/units.hpp"
 #include "parameters/posterior.hpp"
 #include "pieces/pieces.hpp"
+#include "prediction/lacking_circumstances.hpp"
 #include "prediction/only_places.hpp"
 #include "random/distributions.hpp"
 #include "random/random_purpose.hpp"
@@ -22,16 +23,6 @@
 
 namespace demecal::inline report {
 namespace {
-
-UnappliedEffect unapplied(const Effect& effect, const CircumstanceWords& lacking, std::size_t without,
-                          std::size_t poses) {
-  UnappliedEffect one{effect.kind, std::nullopt, std::string(lacking.name), without, {}};
-  if (effect.joint >= 0) one.joint = static_cast<std::uint64_t>(effect.joint) + 1;
-  one.sentence = fmt::format(
-      "{}{} cannot be applied as it was calibrated at {} of {} poses: they do not state {}, and {} is taken", one.kind,
-      one.joint ? fmt::format(" of joint {}", *one.joint) : "", without, poses, lacking.words, lacking.instead);
-  return one;
-}
 
 /// Where the radii come from: a sentence for an engineer.
 std::string origin_of(const PredictionInterval& interval) {
@@ -191,15 +182,13 @@ bool contradicts(const FindingEntry& finding) {
 }
 
 std::vector<UnappliedEffect> unapplied_effects(const CorrectedRobot& robot, const DataSet& data) {
+  std::vector<std::size_t> poses(data.poses.size());
+  std::iota(poses.begin(), poses.end(), std::size_t{0});
   std::vector<UnappliedEffect> all;
-  for (const Effect& effect : robot.effects) {
-    const Needs needs = law_of(effect).needs(effect, data.robot);
-    for (const CircumstanceWords& one : circumstances()) {
-      if (!(needs.*one.needed)) continue;
-      const auto without = static_cast<std::size_t>(
-          std::ranges::count_if(data.poses, [&one](const MeasuredPose& pose) { return !one.recorded(pose); }));
-      if (without > 0) all.push_back(unapplied(effect, one, without, data.poses.size()));
-    }
+  for (const LackingCircumstance& one : lacking_circumstances(robot, data, poses)) {
+    const Effect& effect = *one.effect;
+    all.push_back({effect.kind, std::nullopt, std::string(one.words->name), one.without, to_string(one)});
+    if (effect.joint >= 0) all.back().joint = static_cast<std::uint64_t>(effect.joint) + 1;
   }
   return all;
 }

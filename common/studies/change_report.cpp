@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -19,6 +18,7 @@
 #include "kinematics/units.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "report/history.hpp"
+#include "studies/change_advice.hpp"
 
 namespace demecal::inline studies {
 namespace {
@@ -31,75 +31,6 @@ std::string chance_text(double p) {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMilliPerUnit = 1e3;
-
-/// The unit that people use, and how many of it one inside is.
-std::pair<std::string, double> shown_unit(const std::string& unit) {
-  if (unit == "rad") return {"mrad", kMilliPerUnit};
-  if (unit == "m") return {"mm", kMilliPerUnit};
-  return {unit, 1.0};
-}
-
-std::string named_joints(const ChangeReport& change) {
-  std::set<int> joints;
-  for (const ChangeCause& cause : change.found)
-    if (law_of(cause.effect).subject() == Subject::joint) joints.insert(cause.effect.joint + 1);
-  if (joints.empty()) return {};
-  return fmt::format("joint{} {}", joints.size() > 1 ? "s" : "", fmt::join(joints, " and "));
-}
-
-/// Of everything that was found, the arm before its base.
-std::string what_to_do_about_found(const ChangeReport& change, const std::string& model_file) {
-  const auto is_of = [&](Subject subject) {
-    return std::ranges::any_of(change.found,
-                               [&](const ChangeCause& cause) { return law_of(cause.effect).subject() == subject; });
-  };
-  const std::string update = "or bring the model up to date: demecal diagnose DATASET.yaml --prior " + model_file;
-  const std::string joints = named_joints(change);
-  std::vector<std::string> advice;
-  if (!joints.empty())
-    advice.push_back("Look at " + joints +
-                     ": master it again where its zero has moved, have its gear looked at where its lost motion has "
-                     "grown");
-  if (is_of(Subject::tool))
-    advice.push_back("Look at the tool and its target: straighten or exchange it, or measure its tool point again");
-  if (advice.empty())
-    advice.push_back("The robot itself is as it was: find the base's frame again where programs rely on it");
-  return fmt::format("{}, {}.", fmt::join(advice, ". "), update);
-}
-
-/// What was found is not all of it, and may be another thing altogether.
-std::string what_to_do_about_more(const ChangeReport& change, const std::string& model_file) {
-  const std::string joints = named_joints(change);
-  return fmt::format(
-      "What is named explains a part only: {:.2g} mm (rms) are left, more than noise. A link, a bearing or something "
-      "else has changed beside it or in its place, or instrument, base or tool were moved between the poses: {}"
-      "measure 30 poses or more and run demecal diagnose DATASET.yaml --prior {}.",
-      millimetres(change.left_m), joints.empty() ? "" : "before work on " + joints + ", ", model_file);
-}
-
-std::string what_to_do_about_unnamed(const ChangeReport& change, const std::string& model_file) {
-  constexpr double kMoreThanWear_m = 5e-3;
-  std::string text = "The errors are larger than the model expects and none of the causes tried explains them: ";
-  if (change.error_m > kMoreThanWear_m)
-    text +=
-        "so large, they are rather of the data than of the robot. Look at the rows first (signs and units of some of "
-        "them, their order), and whether instrument, base or tool were moved between the poses; then ";
-  else
-    text +=
-        "see whether instrument, base or tool were moved between the poses, and whether joints were rounded when they "
-        "were noted; ";
-  return text + "measure 30 poses or more and run demecal diagnose DATASET.yaml --prior " + model_file + ".";
-}
-
-std::string what_to_do(const ChangeReport& change, const std::string& model_file) {
-  if (change.unnamed) return what_to_do_about_unnamed(change, model_file);
-  if (change.found.empty())
-    return change.set_up_anew ? "The robot itself is as it was; its base was found again in the instrument's new frame."
-                              : "Nothing needs to be done.";
-  return change.more ? what_to_do_about_more(change, model_file) : what_to_do_about_found(change, model_file);
-}
-
 Json cause_json(const ChangeCause& cause, const Robot& robot) {
   const auto [unit, per_inside] = shown_unit(cause.unit);
   return {{"kind", cause.effect.kind},
@@ -109,10 +40,11 @@ Json cause_json(const ChangeCause& cause, const Robot& robot) {
           {"size", cause.size * per_inside},
           {"standard_error", cause.standard_error * per_inside},
           {"unit", unit},
+          {"by_model", cause.by_model ? Json(*cause.by_model * per_inside) : Json()},
           {"smallest_detectable", std::isfinite(cause.detectable) ? Json(cause.detectable * per_inside) : Json()},
           {"power", cause.power},
           {"rivals", cause.rivals},
-          {"sentence", law_of(cause.effect).diagnosis(cause.effect, robot)}};
+          {"sentence", sentence_on(cause, robot)}};
 }
 
 /// With their lines, since names may repeat.
@@ -128,7 +60,9 @@ std::string left_out_line(const ChangeReport& change, const DataSet& data) {
 }
 
 std::string answer(const ChangeReport& change) {
-  if (change.verdict == ChangeVerdict::unchanged) return "The robot is as it was.";
+  if (change.verdict == ChangeVerdict::unchanged)
+    return change.lacking.empty() ? "The robot is as it was."
+                                  : "As far as these poses can tell, the robot is as it was.";
   if (change.verdict == ChangeVerdict::registration)
     return change.set_up_anew ? "The robot is as it was; the instrument was set up anew."
                               : "The robot is as it was, but its base stands elsewhere in the instrument's frame.";
@@ -156,8 +90,9 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"causes", Json::array()},
             {"tried", Json::array()},
             {"outliers", Json::array()},
-            {"not_testable", change.not_testable},
+            {"not_testable", change.lacking},
             {"advice", what_to_do(change, model_file)}};
+  for (const std::string& sentence : change.not_testable) json["not_testable"].push_back(sentence);
   for (const ChangeCause& cause : change.found) json["causes"].push_back(cause_json(cause, data.robot));
   if (!change.found.empty()) json["cause"] = cause_json(change.found.front(), data.robot);
   for (const ChangeCause& cause : change.found)
@@ -172,8 +107,9 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
 
 std::string change_text(const ChangeReport& change, const DataSet& data, const std::string& model_file) {
   std::string text = answer(change) + '\n';
+  for (const std::string& sentence : change.lacking) text += "  " + sentence + '\n';
   for (const ChangeCause& cause : change.found) {
-    text += "  " + law_of(cause.effect).diagnosis(cause.effect, data.robot) + '\n';
+    text += "  " + sentence_on(cause, data.robot) + '\n';
     text += fmt::format("    p {} (all causes tried: p {})\n", chance_text(cause.p_value), chance_text(cause.p_family));
     if (!cause.rivals.empty())
       text += fmt::format("    cannot be distinguished with these poses from: {}\n", fmt::join(cause.rivals, ", "));

@@ -22,8 +22,11 @@
 #include "parameters/posterior.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
+#include "updating/expected_noise.hpp"
 #include "updating/joint_rounding.hpp"
+#include "updating/model_amounts.hpp"
 #include "updating/repeats.hpp"
+#include "updating/unstated.hpp"
 
 namespace demecal::inline updating {
 namespace {
@@ -62,6 +65,10 @@ class ChangeSearch {
       throw InputError({data.file, 0}, std::to_string(poses_.size()),
                        "poses are too few to tell whether the robot has changed: measure 4 at least, better 12");
     place();
+    const ExpectedNoise noise = expected_noise(model_, robot_, data, distinct_, poses_);
+    report_.noise_m = noise.noise_m;
+    report_.not_testable = noise.sentences;
+    known_rows_ = noise.known_rows;
     effects_ = possible_changes(data_, poses_);
   }
 
@@ -69,6 +76,7 @@ class ChangeSearch {
     ChangeRows rows = make_rows();
     if (leave_out_gross(rows)) rows = make_rows();
     report_.error_m = rms(Eigen::VectorXd::Zero(0), rows);
+    report_.lacking = unstated_sentences(robot_, data_, poses_, rows.unstated_m, report_.noise_m);
     const double chance_of_left = judge(rows);
     if (report_.verdict == ChangeVerdict::changed && chance_of_left < kChanceOfNoise) judge_as_rounded();
     for (std::size_t& pose : report_.outliers) pose = distinct_.measured[pose];
@@ -83,20 +91,12 @@ class ChangeSearch {
     robot_.described = data_.robot;
     std::vector<double> errors;
     for (const std::size_t pose : poses_) errors.push_back(tool_error_m(robot_, data_, data_.poses[pose]));
-    report_.noise_m = model_.interval ? std::hypot(model_.interval->noise_m, model_.interval->model_error_m) : 0.0;
     if (median(errors) > kElsewhere_m && data_.frame == Frame::sensor) {
       const Fit fit = fit_registration(data_, poses_, {.registration = true}, robot_);
       if (fit.status == FitStatus::converged) {
         robot_ = fit.robot;
         report_.set_up_anew = true;
       }
-    }
-    if (report_.noise_m <= 0.0) {
-      const Fit fit = fit_registration(data_, poses_, {.registration = true, .tool = true}, robot_);
-      report_.noise_m = std::max(1e-6, fit.sigma_position_m);
-      report_.not_testable.emplace_back(
-          "The model states no noise (it is of an older version): that of these poses themselves is taken, so that "
-          "small changes may be missed.");
     }
   }
 
@@ -148,12 +148,6 @@ class ChangeSearch {
     return report_.error_m * std::sqrt(explained.squaredNorm() / std::max(rows.values.squaredNorm(), 1e-30));
   }
 
-  /// What is known of the noise's size counts as so many rows more.
-  double known_rows() const {
-    constexpr double kMost = 60.0, kFewest = 10.0;
-    return model_.interval ? std::clamp(3.0 * static_cast<double>(model_.interval->poses), kFewest, kMost) : kFewest;
-  }
-
   /// Where joints are written coarsely, that may be what is left.
   void judge_as_rounded() {
     const auto rounding = notable_rounding(robot_.chain, data_, poses_, report_.noise_m);
@@ -170,9 +164,9 @@ class ChangeSearch {
     report_.verdict = ChangeVerdict::unchanged;
     report_.unnamed = report_.more = false;
     const auto n = static_cast<double>(rows.values.size());
-    report_.p_any = fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
+    report_.p_any = fisher_p_value(rows.values.squaredNorm() / n, n, known_rows_);
     report_.strain = strain_of(rows);
-    report_.strain_limit = std::sqrt(fisher_quantile(1.0 - kErrorOfAny, n, known_rows()));
+    report_.strain_limit = std::sqrt(fisher_quantile(1.0 - kErrorOfAny, n, known_rows_));
     constexpr int kMostCauses = 3;
     for (int step = 0; step < kMostCauses; ++step) {
       std::vector<ChangeCause> causes = causes_on(rows);
@@ -192,7 +186,7 @@ class ChangeSearch {
     report_.unnamed = report_.found.empty() && report_.p_any < kErrorOfAny;
     if (report_.unnamed) report_.left_m = report_.error_m;
     if (report_.more || report_.unnamed) report_.verdict = ChangeVerdict::changed;
-    return fisher_p_value(rows.values.squaredNorm() / n, n, known_rows());
+    return fisher_p_value(rows.values.squaredNorm() / n, n, known_rows_);
   }
 
   static double strain_of(const ChangeRows& rows) {
@@ -236,11 +230,12 @@ class ChangeSearch {
       cause.is_registration = registers(effects_[i]);
       const Eigen::VectorXd values = qr.solve(rows.values);
       cause.effect.values.assign(values.begin(), values.end());
+      cause.by_model = amount_by_model(robot_, data_, poses_, effects_[i]);
       const double left = (rows.values - columns * values).squaredNorm();
-      const double freedom = known_rows() + n - rank, variance = (known_rows() + left) / freedom;
+      const double freedom = known_rows_ + n - rank, variance = (known_rows_ + left) / freedom;
       cause.p_value = fisher_p_value(std::max(0.0, whole - left) / rank / variance, rank, freedom);
       fill_size(columns, std::sqrt(variance), cause);
-      scored.push_back({(known_rows() + n) * std::log(known_rows() + left) + rank * std::log(n), std::move(cause)});
+      scored.push_back({(known_rows_ + n) * std::log(known_rows_ + left) + rank * std::log(n), std::move(cause)});
     }
     std::sort(scored.begin(), scored.end(), [](const Scored& a, const Scored& b) { return a.length < b.length; });
     std::vector<ChangeCause> causes;
@@ -281,6 +276,7 @@ class ChangeSearch {
   CorrectedRobot robot_;
   std::vector<std::size_t> poses_;
   std::vector<Effect> effects_;
+  double known_rows_ = 0.0;  ///< what is known of the noise's size counts as so many rows more
   JointSteps rounding_;
   ChangeReport report_;
 };

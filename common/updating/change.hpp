@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -34,6 +35,8 @@ struct ChangeCause {
   double detectable = 0.0;          ///< the size that these poses find nine times in ten, SI; infinite: none
   double power = 0.0;               ///< that the size usually asked for is found: 0.3 mrad, 0.2 mm
   std::vector<std::string> rivals;  ///< causes that these poses cannot tell from it
+  std::optional<double>
+      by_model{};  ///< how much of it the model has, to which `size` adds; of zeros, tool, base: nothing
 };
 
 struct ChangeReport {
@@ -42,7 +45,7 @@ struct ChangeReport {
   double p_any = 1.0;                 ///< of such errors by the model and its noise
   double strain = 0.0;                ///< rms of the errors over what model and noise lead one to expect
   double strain_limit = 0.0;          ///< that one unchanged robot in a thousand exceeds
-  double noise_m = 0.0;               ///< per axis, as the model has it
+  double noise_m = 0.0;               ///< per axis, as the model has it, or repeats that scatter more
   double error_m = 0.0;               ///< rms of the tool's errors by the model (base found again where it had to be)
   double left_m = 0.0;                ///< the same once what was found is taken in
   std::size_t poses = 0;              ///< repeats of one count once
@@ -51,6 +54,7 @@ struct ChangeReport {
   std::vector<ChangeCause> found;     ///< in the order they were found
   std::vector<ChangeCause> tried;     ///< all, the likeliest first
   std::vector<std::string> not_testable;  ///< sentences
+  std::vector<std::string> lacking;       ///< sentences: what of the model poses do not let it apply
   bool unnamed = false;                   ///< changed, but by nothing that was tried
   bool more = false;                      ///< what was found leaves more than an unchanged robot would
 };
@@ -61,7 +65,9 @@ struct ChangeReport {
 /// are far beyond what is expected, none is named; where they leave more than one unchanged robot in a thousand would,
 /// the robot has changed whatever they are. Poses of the names `suspects` are left out where they are a quarter
 /// at most. Where joints are written coarsely, and errors are left that nothing explains, their rounding counts as
-/// noise. Throws InputError where the poses are too few, or are not of this arm.
+/// noise; so does what effects of the model may have done at poses that do not state what these depend on, and how far
+/// repeats lie apart where that is more than the model's noise. Throws InputError where the poses are too few, or are
+/// not of this arm.
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects = {});
 
 /// What may happen to an arm between two measurements: what is declared of most models, and what depends on the side a
@@ -72,6 +78,7 @@ std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::s
 struct ChangeRows {
   Eigen::VectorXd values;
   std::vector<Eigen::MatrixXd> columns;  ///< by effect
+  double unstated_m = 0.0;               ///< how far what poses do not state may move the tool, rms
 };
 
 /// The poses that are compared, and by what.

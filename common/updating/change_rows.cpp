@@ -10,6 +10,7 @@
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "updating/change.hpp"
+#include "updating/unstated.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -103,11 +104,12 @@ ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const 
   }
   if (compared.set_up_anew) add_base(field, covariance);
   add_rounding(field, data.robot.chain, compared.rounding, covariance);
+  const double unstated = add_unstated(compared.robot, data, field, covariance);
   EffectColumns columns;
   for (const Effect& effect : effects) columns.append(effect, data.robot, field.states);
   columns.pack();
   const Cholesky root(covariance);
-  ChangeRows rows{root.whitened(field.residual), {}};
+  ChangeRows rows{root.whitened(field.residual), {}, unstated * compared.noise_m};
   for (std::size_t i = 0; i < effects.size(); ++i)
     rows.columns.push_back(root.whitened(Eigen::MatrixXd(columns.dense(field, i))));
   return rows;

@@ -41,10 +41,9 @@ void take_in(MeasuredPose& mean, const MeasuredPose& pose, double count) {
 }  // namespace
 
 DistinctPoses distinct_poses(const DataSet& data) {
-  DistinctPoses distinct{data, {}};
+  DistinctPoses distinct{data, {}, {}};
   std::vector<MeasuredPose>& kept = distinct.data.poses;
   kept.clear();
-  std::vector<double> counts;
   for (std::size_t i = 0; i < data.poses.size(); ++i) {
     const MeasuredPose& pose = data.poses[i];
     const auto first =
@@ -52,12 +51,12 @@ DistinctPoses distinct_poses(const DataSet& data) {
     if (first == distinct.measured.end()) {
       kept.push_back(pose);
       distinct.measured.push_back(i);
-      counts.push_back(1.0);
+      distinct.repeats.push_back({i});
       continue;
     }
     const auto place = static_cast<std::size_t>(first - distinct.measured.begin());
-    take_in(kept[place], pose, counts[place]);
-    counts[place] += 1.0;
+    take_in(kept[place], pose, static_cast<double>(distinct.repeats[place].size()));
+    distinct.repeats[place].push_back(i);
   }
   return distinct;
 }

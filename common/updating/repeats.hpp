@@ -12,6 +12,7 @@ namespace demecal::inline updating {
 struct DistinctPoses {
   DataSet data;                       ///< one pose for all its repeats, of their mean
   std::vector<std::size_t> measured;  ///< of each, the first of its repeats in the data set that it is made of
+  std::vector<std::vector<std::size_t>> repeats{};  ///< of each, all of them
 };
 
 /// Repeats stand at the same joints with the same tool, payload and side that joints come from, at temperatures less

@@ -23,6 +23,7 @@
 #include "data/data_set.hpp"
 #include "data_check/check_data.hpp"
 #include "data_files/data_set_file.hpp"
+#include "data_files/stated_sets.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/stations.hpp"
 #include "kinematics/units.hpp"
@@ -151,6 +152,7 @@ ExitCode run_certify(const CertifyRequest& request) {
                                                     .today = today(),
                                                     .model_sha256 = sha256(read_file(request.model_file)),
                                                     .refit_base = request.refit_base,
+                                                    .sets_stated = states_sets(request.data_file),
                                                     .notes = notes});
   std::string xml = dcc_xml(certificate);
   if (is_signed) xml = signed_document(signer, with_empty_signature(std::move(xml)), request.signing);

@@ -115,6 +115,48 @@ TEST(Certificate, ClaimsNothingOfWhereOtherDataAreFrom) {
   EXPECT_TRUE(is_calibrated_with(stations, arm.data()));
 }
 
+/// As poses are divided where their file does not say how.
+void draw_sets(SentArm& arm) {
+  for (std::size_t i = 0; i < arm.data().poses.size(); ++i)
+    arm.data().poses[i].set = i % 3 == 0 ? PoseSet::validation : PoseSet::calibration;
+}
+
+TEST(Certificate, SaysOnlyOfTheModelsOwnPosesThatTheyHadAPartInIt) {
+  SentArm arm(33);
+  add_others(arm, PoseSet::validation, 8);
+  add_others(arm, PoseSet::calibration, 12);
+  const Certificate other = certificate_of(arm, run_at(1e-3));
+  EXPECT_FALSE(remarks_on(other, "took part in the choice"));
+  EXPECT_TRUE(remarks_on(other, "no accept poses: the validation poses are judged."));
+  EXPECT_TRUE(remarks_on(other, "is not known here"));
+  arm.data().sha256 = "of the model";
+  const Certificate own = certificate_of(arm, run_at(1e-3));
+  EXPECT_TRUE(remarks_on(own, "took part in the choice"));
+  EXPECT_FALSE(remarks_on(own, "is not known here"));
+}
+
+TEST(Certificate, JudgesAllPosesOfOtherDataThatStateNoSets) {
+  SentArm arm(34);
+  add_others(arm, PoseSet::accept, 21);
+  draw_sets(arm);
+  CertifiedRun run = run_at(1e-3);
+  run.sets_stated = false;
+  const Certificate whole = certificate_of(arm, run);
+  EXPECT_EQ(whole.judged_rows, 21U);
+  EXPECT_EQ(whole.judged_set, "accept");
+  EXPECT_TRUE(remarks_on(whole, "state no sets and are not those of the model: all poses are judged"));
+  EXPECT_FALSE(remarks_on(whole, "took part in the choice"));
+  run.refit_base = true;
+  const Certificate refitted = certificate_of(arm, run);
+  EXPECT_EQ(refitted.judged_rows, 7U) << "the others tell where the base is";
+  EXPECT_TRUE(remarks_on(refitted, "which poses are judged was drawn"));
+  run.refit_base = false;
+  arm.data().sha256 = "of the model";
+  const Certificate own = certificate_of(arm, run);
+  EXPECT_EQ(own.judged_rows, 7U);
+  EXPECT_TRUE(remarks_on(own, "took part in the choice"));
+}
+
 TEST(Certificate, TakesNothingOfTheDayFromTheModel) {
   SentArm arm(25);
   CalibratedModel model = model_of(arm);

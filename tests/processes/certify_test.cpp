@@ -1,6 +1,7 @@
 // demecal certify: a verdict with every tolerance, three files, and what nobody stated named.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -75,6 +76,24 @@ TEST(Certify, JudgesKnownLengthsWhereNothingWasMeasured) {
   const Ended refused = certify(job.path("no-length.yaml"), "2");
   EXPECT_EQ(refused.code, 11);
   EXPECT_TRUE(has(refused.err, "contacts.distances")) << refused.err;
+}
+
+/// Whose poses are drawn into sets all the same, where they are read.
+TEST(Certify, JudgesAllPosesOfOtherDataWithoutSets) {
+  Certified robot;
+  std::string data = robot.text("data/dataset.yaml"), poses = robot.text("data/poses.csv");
+  const std::size_t column = data.find("  set: ");
+  ASSERT_NE(column, std::string::npos);
+  data.erase(column, data.find('\n', column) + 1 - column);
+  poses.erase(poses.find_last_of('\n', poses.size() - 2) + 1);
+  std::ofstream(robot.path("data/dataset.yaml")) << data;
+  std::ofstream(robot.path("data/poses.csv")) << poses;
+  const Ended ended = robot.certify("10", {"--json"});
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  const Json said = Json::parse(ended.out);
+  EXPECT_EQ(said["judgement"]["poses"], std::ranges::count(poses, '\n') - 1);
+  EXPECT_TRUE(has(ended.out, "all poses are judged")) << ended.out;
+  EXPECT_FALSE(has(ended.out, "took part in the choice")) << ended.out;
 }
 
 TEST(Certify, RefusesPositionsThatWereComputed) {

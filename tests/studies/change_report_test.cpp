@@ -37,6 +37,7 @@ TEST(ChangeReport, TakesErrorsThatNoRobotComesToForThoseOfTheData) {
   change.unnamed = true;
   change.error_m = 5e-4;
   EXPECT_FALSE(says(change, "Look at the rows first"));
+  EXPECT_TRUE(says(change, "whether the instrument scatters more"));
   change.error_m = 5e-2;
   EXPECT_TRUE(says(change, "Look at the rows first"));
 }
@@ -59,6 +60,66 @@ TEST(ChangeReport, AdvisesOnEverythingThatWasFound) {
   EXPECT_TRUE(says(change, "not all of it can be named"));
   EXPECT_TRUE(says(change, "0.15 mm (rms) are left"));
   EXPECT_TRUE(says(change, "before work on joints 2 and 3"));
+}
+
+ChangeCause lost_motion_of(int joint, double by_model_rad, double size_rad) {
+  ChangeCause cause;
+  cause.effect = {.kind = "backlash", .joint = joint - 1, .form = "approach", .values = {size_rad}};
+  cause.unit = "rad";
+  cause.size = size_rad;
+  cause.standard_error = 1e-5;
+  cause.by_model = by_model_rad;
+  return cause;
+}
+
+TEST(ChangeReport, TellsFromHowMuchToHowMuchLostMotionWent) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  change.found = {lost_motion_of(3, 3e-4, 6e-4)};
+  EXPECT_TRUE(says(change, "The lost motion of joint 3, from end to end, went from 0.30 to 0.90 mrad"));
+  EXPECT_TRUE(says(change, "Have the gear of joint 3 inspected"));
+  EXPECT_FALSE(says(change, "master it again"));
+  change.found = {lost_motion_of(3, 3e-4, -3.1e-4)};
+  EXPECT_TRUE(says(change, "went from 0.30 to 0.00 mrad"));
+  EXPECT_TRUE(says(change, "The lost motion of joint 3 is less than the model corrects for"));
+  EXPECT_FALSE(says(change, "beyond where it is sent"));
+  EXPECT_FALSE(says(change, "inspected"));
+  change.found = {lost_motion_of(3, 0.0, 3e-4)};
+  EXPECT_TRUE(says(change, "Joint 3 stops 0.15 mrad"));
+  EXPECT_TRUE(says(change, "Have the gear of joint 3 inspected"));
+}
+
+TEST(ChangeReport, SaysThatAJointStopsBeyondWhereItIsSentOfTheWholeAlone) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  change.found = {lost_motion_of(3, 3e-4, -6e-4)};
+  EXPECT_TRUE(says(change, "Joint 3 stops 0.15 mrad (30.9 arcsec) beyond where it is sent"));
+  EXPECT_TRUE(says(change, "signs of approach of joint 3"));
+}
+
+TEST(ChangeReport, OfAnEffectByTemperatureStatesTheWhole) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  ChangeCause cause;
+  cause.effect = {.kind = "thermal_offset", .joint = 1, .settings = {{"reference_celsius", 20.0}}, .values = {1e-5}};
+  cause.unit = "rad/K";
+  cause.size = 1e-5;
+  cause.by_model = 2e-5;
+  change.found = {cause};
+  EXPECT_TRUE(says(change, "The zero of joint 2 moves by 0.03 mrad"));
+  EXPECT_TRUE(says(change, "By the model it was 2e-05 rad/K, now it is 3e-05."));
+}
+
+TEST(ChangeReport, SaysFirstWhatPosesDoNotState) {
+  ChangeReport change;
+  change.lacking = {"The temperature is not stated."};
+  EXPECT_TRUE(
+      says(change, "As far as these poses can tell, the robot is as it was.\n  The temperature is not stated.\n"));
+  EXPECT_TRUE(says(change, "state with the poses what is missing"));
+  EXPECT_FALSE(says(change, "Nothing needs to be done"));
+  change.not_testable = {"Repeats scatter."};
+  const std::string json = to_json(change, DataSet{}, "model.yaml");
+  EXPECT_NE(json.find("\"not_testable\":[\"The temperature is not stated.\",\"Repeats scatter.\"]"), std::string::npos);
 }
 
 }  // namespace
