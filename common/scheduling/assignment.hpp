@@ -33,8 +33,9 @@ class Assignment {
 
   /// The moves that give every island a worker and even the load out, applied at once: islands without a
   /// worker go to the least loaded one and, in key order, on to the same as long as that is no more than its share,
-  /// since neighbours then sit together and need no network; then islands move from the most to the least loaded worker
-  /// while that shortens the longest queue and `may_move` agrees. Empty where there are no workers.
+  /// since neighbours then sit together and need no network; then islands move from the most to the least loaded
+  /// worker, if that has an idle slot, while it shortens the longest queue and `may_move` agrees. Empty without
+  /// workers.
   std::vector<Move> balance(const std::function<bool(IslandKey)>& may_move = {});
 
   /// Empty where the island is without a worker.

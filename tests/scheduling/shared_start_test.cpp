@@ -41,8 +41,9 @@ TEST(Worker, TidiesUpOnceNoRunHasFollowedForASecond) {
   const auto transport = join(exchange, Role::coordinator, "coordinator");
   RunObserver silent;
   const std::atomic<bool> interrupt{false};
-  EXPECT_EQ(EvolutionRun(*transport, small_run(1), silent).run(interrupt, {}).end, RunEnd::finished);
-  EXPECT_EQ(EvolutionRun(*transport, small_run(2), silent).run(interrupt, {}).end, RunEnd::finished);
+  const RunResult first = EvolutionRun(*transport, small_run(1), silent).run(interrupt, {});
+  EvolutionRun next(*transport, RunState(small_run(2)), silent, first.present);
+  EXPECT_EQ(next.run(interrupt, {}).end, RunEnd::finished);
   EXPECT_EQ(tidied, 0);
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
   while (tidied == 0 && std::chrono::steady_clock::now() < deadline)
