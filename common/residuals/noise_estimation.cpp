@@ -101,13 +101,20 @@ RowMatrix even_drift(const DiagnosisProblem& problem, const ResidualField& field
   if (!varies) return RowMatrix(field.rows(), 0);
   double sum_s = 0.0;
   for (const ArmState& state : field.states) sum_s += *time_s(state);
+  Evidence evidence;
+  evidence.time = true;
+  evidence.mean_time_s = sum_s / static_cast<double>(field.states.size());
   EffectColumns columns;
-  columns.append({.kind = "drift",
-                  .joint = -1,
-                  .settings = {{"reference_time_s", sum_s / static_cast<double>(field.states.size())}}},
-                 problem.data.robot, field.states);
+  for (const EffectLaw* const law : catalogue()) {
+    if (law->prerequisite() != Circumstance::time) continue;
+    for (const Effect& effect : law->proposals(problem.data.robot, evidence))
+      columns.append(effect, problem.data.robot, field.states);
+  }
   columns.pack();
-  return columns.dense(field, 0);
+  RowMatrix result(field.rows(), 0);
+  for (std::size_t effect = 0; effect < columns.spans().size(); ++effect)
+    result = beside(result, columns.dense(field, effect));
+  return result;
 }
 
 /// Whether an arm and an instrument may be as noisy: else what the model lacks is taken for noise.
