@@ -40,9 +40,8 @@ bool is_of_the_language(const std::string& word) {
 
 /// Statements behind which the arm stands where no target says.
 bool is_untold_motion(const std::string& word) {
-  constexpr std::array<std::string_view, 9> kWords{"speedj",     "speedl",        "freedrive_mode", "force_mode",
-                                                   "teach_mode", "screw_driving", "run",            "stopl",
-                                                   "stopj"};
+  constexpr std::array<std::string_view, 7> kWords{
+      "speedj", "speedl", "freedrive_mode", "force_mode", "teach_mode", "screw_driving", "run"};
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 

@@ -1,6 +1,6 @@
 // Kawasaki AS: the locations of .TRANS (x, y, z in mm and O, A, T in degrees, turns about z, the new y and the new z)
-// and of .JOINTS (a number per joint), and those that programs write as TRANS(...), #PPOINT(...) and #[...].
-// Numbers of external axes behind them are kept.
+// and of .JOINTS (a number per joint), and those that programs write as TRANS(...) and #PPOINT(...). Numbers of
+// external axes behind them are kept.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -118,11 +118,6 @@ class AsReader {
       const std::size_t begin = numbers.empty() ? code_.size() : numbers.front().begin;
       text_.fail(std::min(begin, code_.size()), 1, target.name + ' ' + rule);
     }
-    for (std::size_t i = needed; i < numbers.size() && !of_joints; ++i) {
-      const auto axis = cell_at(text_.text(), numbers[i].begin, numbers[i].size, {});
-      if (!axis || axis->value != 0.0)
-        target.not_sent_to = "an external axis, JT" + std::to_string(i + 1) + ", may carry the arm";
-    }
     numbers.resize(needed);
     const std::vector<CellUnit> units =
         of_joints ? joint_units(arm_) : std::vector<CellUnit>(kTransUnits.begin(), kTransUnits.end());
@@ -147,10 +142,9 @@ class AsReader {
     return here || kept == controller_.tools.end() ? location(name) : std::optional(kept->second);
   }
 
-  static std::optional<Eigen::Isometry3d> kept(const std::map<std::string, Eigen::Isometry3d>& frames,
-                                               const std::string& name) {
-    const auto found = frames.find(name);
-    return found == frames.end() ? std::nullopt : std::optional(found->second);
+  std::optional<Eigen::Isometry3d> kept_frame(const std::string& name) const {
+    const auto kept = controller_.frames.find(name);
+    return kept == controller_.frames.end() ? std::nullopt : std::optional(kept->second);
   }
 
   /// The pose of the only location of this name.
@@ -174,13 +168,12 @@ class AsReader {
                                         if (fresh) found->second = tool(name);
                                         return found->second;
                                       },
-                                      [&](const std::string& name) { return kept(controller_.frames, name); },
-                                      [&](const std::string& name) { return kept(controller_.tools, name); }};
+                                      [&](const std::string& name) { return kept_frame(name); }};
     const StatedFrames frames = statements_.frames(lookup);
     note_untold_locations(
         text_, statements_.uses(), [&](const std::string& name) { return statements_.not_sent_to(name); }, program_);
     end_at_unknown_statements(statements_.unknown(), program_);
-    std::vector<Target> targets = program_.targets, going;
+    std::vector<Target> targets = program_.targets, kept;
     std::stable_sort(targets.begin(), targets.end(),
                      [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
     for (Target& target : targets) {
@@ -201,9 +194,9 @@ class AsReader {
       std::vector<TargetUse> uses = name.empty() ? std::vector<TargetUse>{} : statements_.uses(name);
       for (TargetUse& use : uses) use.frames = statements_.frames_at(use.begin, pose, lookup);
       if (!uses.empty()) take_uses(uses, target);
-      going.push_back(std::move(target));
+      kept.push_back(std::move(target));
     }
-    program_.targets = std::move(going);
+    program_.targets = std::move(kept);
   }
 
   ProgramText text_;

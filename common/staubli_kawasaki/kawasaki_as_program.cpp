@@ -14,7 +14,6 @@ namespace {
 
 constexpr std::array<std::string_view, 6> kConfigurations{"lefty", "righty", "above", "below", "uwrist", "dwrist"};
 
-const std::string kBlockTool = "tool:";         ///< no location's name, for it has a colon; the number follows
 const std::string kSystemTool = "of .SYSDATA";  ///< no location's name, for it has a blank
 
 /// Motions to a location; those whose names begin with J and HMOVE move joint by joint.
@@ -22,18 +21,6 @@ bool is_motion(const std::string& word) {
   constexpr std::array<std::string_view, 9> kMotions{"jmove",  "lmove",  "hmove",  "xmove", "c1move",
                                                      "c2move", "jappro", "lappro", "smove"};
   return std::find(kMotions.begin(), kMotions.end(), word) != kMotions.end();
-}
-
-/// The numbers between the brackets of the list.
-void add_numbers(const ProgramText& text, BracketItem& list) {
-  const std::size_t close = list.begin + list.size - 1;
-  for (std::size_t at = list.begin + 1; at <= close;) {
-    const std::size_t stop = std::min(text.code().find(',', at), close);
-    std::size_t first = at;
-    const std::string_view item = text.trimmed(first, stop);
-    list.items.push_back({first, item.size(), false, {}});
-    at = stop + 1;
-  }
 }
 
 /// Whether + or - stand outside of parentheses.
@@ -59,8 +46,6 @@ void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::si
   if (std::find(kConfigurations.begin(), kConfigurations.end(), word) != kConfigurations.end())
     sets_configuration_ = word;
   if (is_motion(word)) return read_motion(text, word, begin, end);
-  if (const std::size_t open = std::min(text.code().find("#[", begin), end); open < end && word != "point")
-    return read_block_step(text, begin, open + 1, end);
   if (word == "point" && argument < end) return read_point(text, argument, end);
   if (word == "call") return use_all(text, std::min(text.code().find('(', argument), end), end);
   if (word == "alter") displaces_ = true;
@@ -160,30 +145,6 @@ void AsStatements::read_point(const ProgramText& text, std::size_t begin, std::s
   if (!copied && (text.word_at(first) != "shift" || is_sum(value))) use_all(text, first, end);
 }
 
-/// "JOINT SPEED9 ACCU1 TIMER0 TOOL1 WORK0 CLAMP1 (OFF,0,0,O) OX= WX= #[10,-20,...] ;", a step as pendants teach them: a
-/// motion to joints, with a tool by its number, which holds from then on.
-void AsStatements::read_block_step(const ProgramText& text, std::size_t begin, std::size_t open, std::size_t end) {
-  const Motion motion = text.word_at(begin) == "joint" ? Motion::joints : Motion::line;
-  for (std::size_t at = begin; at < open; ++at) {
-    if (!text.begins_word(at)) continue;
-    const std::string word = text.word_at(at);
-    if (word.starts_with("tool") && word.size() > 4) {
-      const std::string named = kBlockTool + word.substr(4);
-      tools_.insert(named);
-      way_.tool(begin, named);
-    }
-    at = std::max(text.word_end(at), at + 1) - 1;
-  }
-  const std::size_t close = text.code().find(']', open);
-  if (close >= end) {
-    computed_.emplace_back(begin, std::string(text.code().substr(open, end - open)));
-    return;
-  }
-  LocationLiteral step{"", {open, close + 1 - open, true, {}}, begin, true, TargetUse{begin, motion, {}}};
-  add_numbers(text, step.list);
-  literals_.push_back(std::move(step));
-}
-
 /// TRANS(...) or #PPOINT(...) that is all of [begin, end).
 std::optional<LocationLiteral> AsStatements::literal_at(const ProgramText& text, std::size_t begin,
                                                         std::size_t end) const {
@@ -195,20 +156,19 @@ std::optional<LocationLiteral> AsStatements::literal_at(const ProgramText& text,
   const std::size_t open = text.skip_spaces(text.word_end(word)), close = code.find(')', open);
   if (open >= end || code[open] != '(' || close >= end || text.skip_spaces(close + 1) < end) return std::nullopt;
   LocationLiteral literal{"", {open, close + 1 - open, true, {}}, begin, of_joints, std::nullopt};
-  add_numbers(text, literal.list);
+  for (std::size_t at = open + 1; at <= close;) {
+    const std::size_t stop = std::min(code.find(',', at), close);
+    std::size_t first = at;
+    const std::string_view item = text.trimmed(first, stop);
+    literal.list.items.push_back({first, item.size(), false, {}});
+    at = stop + 1;
+  }
   return literal;
 }
 
 KnownFrame AsStatements::tool_of(const std::string& word, const Lookup& lookup) const {
   if (word == "null") return {"flange", Eigen::Isometry3d::Identity(), ""};
-  const bool of_step = word.starts_with(kBlockTool);
-  const auto pose = word == kSystemTool ? std::nullopt
-                    : of_step           ? lookup.kept_tool(word.substr(kBlockTool.size()))
-                                        : lookup.tool(word);
-  if (of_step && !pose) {
-    const std::string name = "tool " + word.substr(kBlockTool.size());
-    return {name, Eigen::Isometry3d::Identity(), name + " is given neither in this program nor by --frames"};
-  }
+  const auto pose = word == kSystemTool ? std::nullopt : lookup.tool(word);
   return pose ? KnownFrame{word, *pose, ""} : KnownFrame::computed("TOOL");
 }
 

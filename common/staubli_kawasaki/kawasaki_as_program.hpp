@@ -20,7 +20,7 @@
 
 namespace demecal::inline staubli_kawasaki {
 
-/// A location that a statement writes as numbers: TRANS(x, y, z, o, a, t), #PPOINT(jt1, ...) or #[jt1, ...].
+/// A location that a statement writes as numbers: TRANS(x, y, z, o, a, t) or #PPOINT(jt1, ...).
 struct LocationLiteral {
   std::string name{};  ///< that POINT gives it; empty: none
   BracketItem list{};
@@ -56,10 +56,9 @@ class AsStatements {
   /// Whether TOOL or BASE names this location, so that nothing moves to it.
   bool is_frame(const std::string& name) const { return tools_.contains(name) || bases_.contains(name); }
 
-  /// What locations that TOOL and BASE name are; `base` is also asked for "base", what the controller keeps, and
-  /// `kept_tool` for its tools by their numbers.
+  /// What locations that TOOL and BASE name are; `base` is also asked for "base", what the controller keeps.
   struct Lookup {
-    std::function<std::optional<Eigen::Isometry3d>(const std::string&)> tool, base, kept_tool;
+    std::function<std::optional<Eigen::Isometry3d>(const std::string&)> tool, base;
   };
   /// The frames of a location that no motion names: those that serve all of them.
   StatedFrames frames(const Lookup& lookup) const;
@@ -83,7 +82,6 @@ class AsStatements {
   /// Locations that [begin, end) hands on or computes with.
   void use_all(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_motion(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end);
-  void read_block_step(const ProgramText& text, std::size_t begin, std::size_t open, std::size_t end);
   void read_point(const ProgramText& text, std::size_t begin, std::size_t end);
   std::optional<LocationLiteral> literal_at(const ProgramText& text, std::size_t begin, std::size_t end) const;
 
