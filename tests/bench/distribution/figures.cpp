@@ -26,7 +26,8 @@ SpeedUp speed_up(std::vector<DistributionFigures> one, std::vector<DistributionF
   for (std::size_t i = 0; i < one.size(); ++i) {
     ratios.push_back(one[i].wall_s / two[i].wall_s);
     const double half_of_all_s = 0.5 * (two[i].worker_s + two[i].coordinator_s);
-    allowed.push_back(one[i].worker_s / std::max(two[i].busiest_worker_s, half_of_all_s));
+    const double least_s = std::max(two[i].busiest_worker_s, half_of_all_s);
+    allowed.push_back(least_s > 0.0 ? one[i].worker_s / least_s : 0.0);
   }
   std::ranges::sort(ratios);
   std::ranges::sort(allowed);
