@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 
 namespace demecal {
 namespace {
@@ -124,7 +125,7 @@ void DisturbedJob::kill_coordinator() {
   if (happened_.resumed >= kMostResumed) return;
   coordinator_->signal(SIGKILL);
   coordinator_->wait();
-  start_coordinator(true);
+  start_coordinator(std::filesystem::exists(job_.path(out_)));  // one that was killed at once has left none to resume
   ++happened_.resumed;
 }
 
