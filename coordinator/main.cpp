@@ -37,7 +37,7 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
 }
 
 /// Matrices of every row of a long series come and go by the hundred: memory that went back to the system each time
-/// would have to be cleared by it, page by page, a sixth of the whole time.
+/// would have to be cleared by it again, page by page.
 void keep_freed_memory() {
   mallopt(M_MMAP_MAX, 0);
   mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max());

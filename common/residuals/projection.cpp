@@ -16,8 +16,8 @@ namespace {
 /// The matrix (n x r) that makes the model's columns over the fitted rows and those of the prior orthonormal, r their
 /// rank.
 Eigen::MatrixXd orthonormaliser(const ModelColumns& model, const RowMatrix& prior) {
-  // Sums of squares take a tenth of the time that reflections take. They lose twice as many digits, which are to spare
-  // where no column is all but a sum of others.
+  // Sums of squares are formed in vector registers, reflections are not. They lose twice as many digits, which are to
+  // spare where no column is all but a sum of others.
   constexpr double kClearlyNew = 2e-5;
   constexpr double kDependent = 1e-9;
   const Eigen::Index n = model.precision.size();
