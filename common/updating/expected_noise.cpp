@@ -86,15 +86,16 @@ ExpectedNoise expected_noise(const CalibratedModel& model, const CorrectedRobot&
   const ScatterOfRepeats scatter = scatter_of_repeats(scatter_by_pose(robot, data, distinct, poses));
   if (scatter.freedom == 0.0) return noise;
   const double variance_m2 = scatter.squares_m2 / scatter.freedom;
-  const double ratio = variance_m2 / std::max(stated.noise_m * stated.noise_m, 1e-18);
+  // Repeats scatter with the arm too, which the model counts as its own error.
+  const double ratio = variance_m2 / (by_model_m * by_model_m);
   if (ratio <= 1.0 || fisher_p_value(ratio, scatter.freedom, noise.known_rows) >= kByChance) return noise;
   // What the model left of the poses it was fitted to may be of the arm, and stays; what scatters more is new.
   noise.noise_m = std::sqrt(by_model_m * by_model_m + scatter.share_of_mean * variance_m2);
   noise.known_rows = std::clamp(scatter.freedom, kFewestOfRepeats, kMostKnownRows);
   noise.sentences.push_back(fmt::format(
-      "Repeats of a pose scatter by {:.2g} mm per axis, more than the noise of the model ({:.2g} mm): that counts as "
+      "Repeats of a pose scatter by {:.2g} mm per axis, more than the model expects ({:.2g} mm): that counts as "
       "noise, so that changes below it may be missed.",
-      millimetres(std::sqrt(variance_m2)), millimetres(stated.noise_m)));
+      millimetres(std::sqrt(variance_m2)), millimetres(by_model_m)));
   return noise;
 }
 
