@@ -255,7 +255,8 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
                          after.sensor_from_base.linear() * model.robot.sensor_from_base.linear().transpose());
   placed.robot = after;
   certificate.poses = certified_poses(placed, data, rows, {before, after}, run.tolerance_m);
-  certificate.uncertainty = uncertainty_of(placed, data, rows, run.fields.instrument_uncertainty_m);
+  if (beyond_radii_sentence(certificate).empty())
+    certificate.uncertainty = uncertainty_of(placed, data, rows, run.fields.instrument_uncertainty_m);
   certificate.view = view_of(data, poses, after);
 }
 

@@ -76,6 +76,7 @@ class Remarks {
 
   /// Of positions and lengths that an instrument saw.
   void add_on_measurement() {
+    if (std::string beyond = beyond_radii_sentence(certificate_); !beyond.empty()) add(std::move(beyond));
     if (!run_.fields.instrument_uncertainty_m)
       add("The instrument's uncertainty is not stated (instrument_uncertainty_mm): errors of the instrument that all "
           "poses share are not in the guard band.");
@@ -132,6 +133,13 @@ class Remarks {
 };
 
 }  // namespace
+
+std::string beyond_radii_sentence(const Certificate& certificate) {
+  std::vector<PoseErrorEntry> entries;
+  for (const CertifiedPose& pose : certificate.poses)
+    entries.push_back({pose.id, pose.target, certificate.judged_set, {}, pose.after_mm, pose.uncertainty_mm, {}});
+  return beyond_radii_sentence(entries);
+}
 
 std::vector<std::string> remarks_on(const Certificate& certificate, const CalibratedModel& model, const DataSet& data,
                                     const CertifiedRun& run) {

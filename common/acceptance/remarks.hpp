@@ -10,6 +10,9 @@
 
 namespace demecal::inline acceptance {
 
+/// As beyond_radii_sentence() of poses, of those that the certificate judges. Empty where they keep to their radii.
+std::string beyond_radii_sentence(const Certificate& certificate);
+
 /// Of a certificate whose figures are there: what limits them, and what was noted beforehand (run.notes).
 std::vector<std::string> remarks_on(const Certificate& certificate, const CalibratedModel& model, const DataSet& data,
                                     const CertifiedRun& run);

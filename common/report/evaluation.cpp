@@ -48,7 +48,8 @@ void fields(auto& visit, Like<UnappliedEffect> auto& effect) {
 
 void fields(auto& visit, Like<Evaluation> auto& evaluation) {
   visit("error_mm", evaluation.error_mm, "pose_errors", evaluation.pose_errors, "data_check", evaluation.data_check,
-        "effects_not_applied", evaluation.effects_not_applied, "uncertainty", evaluation.uncertainty);
+        "effects_not_applied", evaluation.effects_not_applied, "uncertainty", evaluation.uncertainty, "beyond_radii",
+        evaluation.beyond_radii);
   visit.when(evaluation.touches, "length_errors_mm", evaluation.length_errors);
 }
 
@@ -165,6 +166,14 @@ std::string beyond_radii_sentence(const IntervalCoverage& coverage, PoseSet set)
       "new "
       "poses), or whether the poses before were as good.",
       coverage.inside, coverage.poses, to_string(set));
+}
+
+std::string beyond_radii_sentence(const std::vector<PoseErrorEntry>& poses) {
+  for (const PoseSet set : {PoseSet::accept, PoseSet::validation, PoseSet::calibration}) {
+    std::string sentence = beyond_radii_sentence(coverage_of(poses, set), set);
+    if (!sentence.empty()) return sentence;
+  }
+  return {};
 }
 
 DataCheckEntry data_check_entry(const DataCheck& check) {

@@ -90,6 +90,8 @@ IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses, PoseSet s
 /// Where so few lie within it as chance makes in less than one case of a thousand: what that says. Nothing otherwise.
 /// Repeats and targets of one pose count as one pose.
 std::string beyond_radii_sentence(const IntervalCoverage& coverage, PoseSet set = PoseSet::accept);
+/// The same of the first set of accept, validation and calibration poses that has such a sentence.
+std::string beyond_radii_sentence(const std::vector<PoseErrorEntry>& poses);
 
 DataCheckEntry data_check_entry(const DataCheck& check);
 
@@ -116,6 +118,7 @@ struct Evaluation {
   std::vector<UnappliedEffect> effects_not_applied;
   std::optional<PredictionEntry> prediction;      ///< for people alone
   std::optional<UncertaintyEntry> uncertainty{};  ///< of a corrected position at poses like these
+  std::string beyond_radii{};                     ///< where poses do not keep to their radii; then no uncertainty
   /// For people alone, in its place where poses only touch something: they agree with means of their own, which tells
   /// nothing of where the tool is.
   std::optional<WorkspaceEntry> workspace_error{};
@@ -124,7 +127,7 @@ struct Evaluation {
 };
 
 /// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}, "pose_errors": [...],
-/// "data_check": ..., "effects_not_applied": [...], "uncertainty": ...} on one line.
+/// "data_check": ..., "effects_not_applied": [...], "uncertainty": ..., "beyond_radii": ...} on one line.
 std::string to_json(const Evaluation& evaluation);
 
 struct ComparedMethod {

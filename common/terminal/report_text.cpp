@@ -239,13 +239,9 @@ std::string to_terminal(const Evaluation& evaluation) {
   }
   text += lengths(evaluation.length_errors);
   text += intervals_text(evaluation.pose_errors, evaluation.prediction);
-  std::string beyond = beyond_radii_sentence(coverage_of(evaluation.pose_errors));
-  for (const PoseSet set : {PoseSet::validation, PoseSet::calibration}) {
-    if (!beyond.empty()) break;
-    beyond = beyond_radii_sentence(coverage_of(evaluation.pose_errors, set), set);
-    if (!beyond.empty()) text += wrapped("  NOTE:", beyond, 4);
-  }
-  if (beyond.empty() && evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {
+  const bool said = !beyond_radii_sentence(coverage_of(evaluation.pose_errors)).empty();
+  if (!said && !evaluation.beyond_radii.empty()) text += wrapped("  NOTE:", evaluation.beyond_radii, 4);
+  if (evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
                         *evaluation.uncertainty->expanded_mm);
   }

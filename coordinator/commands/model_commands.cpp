@@ -187,6 +187,8 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                         unapplied_effects(robot, data),
                         {},
                         uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
+  evaluation.beyond_radii = beyond_radii_sentence(evaluation.pose_errors);
+  if (!evaluation.beyond_radii.empty()) evaluation.uncertainty.reset();
   evaluation.touches = has_contacts(data);
   if (evaluation.touches && !has_instrument(data)) {
     evaluation.uncertainty.reset();

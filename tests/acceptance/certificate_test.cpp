@@ -199,6 +199,24 @@ TEST(Certificate, TakesTheNoiseFromRepeatsWhereThereAreAny) {
   EXPECT_TRUE(remarks_on(single, "holds the model's error too"));
 }
 
+TEST(Certificate, StatesNoCorrectedPositionWherePosesDoNotKeepToTheirRadii) {
+  SentArm arm(29);
+  add_others(arm, PoseSet::calibration, 8);
+  for (int i = 0; i < 20; ++i) arm.add("P" + std::to_string(i), arm.somewhere(), Eigen::Vector3d(kError_m, 0, 0));
+  CalibratedModel model = model_of(arm);
+  model.posterior = Posterior{};
+  model.interval->quantile = 2.8;
+  model.interval->noise_m = 2.0 * kError_m / model.interval->quantile;
+  const Certificate kept = make_certificate(model, arm.data(), run_at(2e-3));
+  EXPECT_TRUE(kept.uncertainty);
+  EXPECT_FALSE(remarks_on(kept, "something that it does not know"));
+
+  model.interval->noise_m = 0.5 * kError_m / model.interval->quantile;
+  const Certificate beyond = make_certificate(model, arm.data(), run_at(2e-3));
+  EXPECT_FALSE(beyond.uncertainty);
+  EXPECT_TRUE(remarks_on(beyond, "Only 0 of 20 accept poses lie within the radius"));
+}
+
 TEST(Certificate, SaysWhatLiesOutsideAndWhatWasLeftOut) {
   SentArm arm(28);
   add_others(arm, PoseSet::accept, 8);

@@ -82,6 +82,18 @@ TEST(BeyondRadii, CountsTheTargetsOfOnePoseOnce) {
   EXPECT_THAT(beyond_radii_sentence(coverage(45, 36, 1)), HasSubstr("Only 36 of 45"));
 }
 
+TEST(BeyondRadii, IsSaidOfTheFirstSetThatItHoldsOf) {
+  std::vector<PoseErrorEntry> entries;
+  for (int i = 0; i < 40; ++i) entries.push_back({"A" + std::to_string(i), "", "accept", {}, 0.05, 0.1, {}});
+  EXPECT_THAT(beyond_radii_sentence(entries), IsEmpty());
+  for (int i = 0; i < 40; ++i) entries.push_back({"C" + std::to_string(i), "", "calibration", {}, 0.2, 0.1, {}});
+  EXPECT_THAT(beyond_radii_sentence(entries), HasSubstr("Only 0 of 40 calibration poses"));
+
+  Evaluation evaluation{{}, entries, {}, {}, {}};
+  evaluation.beyond_radii = beyond_radii_sentence(entries);
+  EXPECT_EQ(nlohmann::json::parse(to_json(evaluation))["beyond_radii"], evaluation.beyond_radii);
+}
+
 TEST(EvaluationJson, StandsOnOneLineWithAllSets) {
   const ErrorBySet errors = made_up_report().after;
   const std::string text = to_json(Evaluation{errors, {}, {}, {}, {}});
