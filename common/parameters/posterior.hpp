@@ -81,6 +81,14 @@ struct PredictionInterval {
   std::map<std::string, double> station_noise_m{};
 };
 
+/// What is known of a model's numbers once its base and tools were fitted to `poses` of `data` (fit_registration, which
+/// made `registered`) while all else stayed as it was: the fit makes up for what the arm's numbers (`posterior`) are
+/// wrong by, and errs by the noise of those poses. Along what these do not show, base and tools are as wide as those of
+/// a model.
+Posterior registered_posterior(const Posterior& posterior, const PredictionInterval& interval,
+                               const CorrectedRobot& registered, const DataSet& data,
+                               std::span<const std::size_t> poses);
+
 /// What intervals hold.
 inline constexpr double kIntervalShare = 0.95;
 

@@ -165,6 +165,13 @@ CorrectedRobot registered(const CalibratedModel& model, const DataSet& data) {
   return fit.robot;
 }
 
+/// What is known of the numbers of `robot`, whose base and tools were `refitted` to the data or stand where they stood.
+Posterior posterior_of(const CalibratedModel& model, const CorrectedRobot& robot, const DataSet& data, bool refitted) {
+  return refitted && model.interval ? registered_posterior(*model.posterior, *model.interval, robot, data,
+                                                           poses_of(data, PoseSet::calibration))
+                                    : posterior_seen(*model.posterior, model.robot, robot, model.stations, data);
+}
+
 ExitCode run_evaluate(const EvaluateRequest& request) {
   CalibratedModel model = load_model(request.model_file);
   say_if_fleet(model, request.model_file);
@@ -178,7 +185,7 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                                    : seen_from_stations(model.robot, model.stations, data);
   require_same_arm(robot, data);
   if (!request.force) require_alike_arm(model, data);
-  if (model.posterior) model.posterior = posterior_seen(*model.posterior, model.robot, robot, model.stations, data);
+  if (model.posterior) model.posterior = posterior_of(model, robot, data, request.refit_base || model.fleet);
   model.robot = robot;
   check_fitted(data, robot, model.posterior, model.interval, checked.check);
   Evaluation evaluation{errors_by_set(robot, data),
