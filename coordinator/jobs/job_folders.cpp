@@ -105,17 +105,19 @@ std::string read_bytes(int descriptor, std::uint64_t begin, std::uint64_t count,
   return bytes;
 }
 
-/// The file appears whole or not at all.
+/// The file appears whole or not at all, and what could not be finished takes no room.
 void write_whole(int folder, const std::string& name, std::string_view bytes, const std::string& shown) {
-  const std::string fault = shown + " cannot be written";
   const OwnedDescriptor file = open_below(folder, kBeingWritten, kToWrite | O_TRUNC);
-  if (file.get() < 0) fail_with_errno(fault);
-  for (std::size_t done = 0; done < bytes.size();) {
+  int fault = file.get() < 0 ? errno : 0;
+  for (std::size_t done = 0; done < bytes.size() && fault == 0;) {
     const ssize_t put = ::write(file.get(), bytes.data() + done, bytes.size() - done);
-    if (put <= 0) fail_with(put < 0 ? errno : EIO, fault);
-    done += static_cast<std::size_t>(put);
+    if (put <= 0) fault = put < 0 ? errno : EIO;
+    done += static_cast<std::size_t>(std::max<ssize_t>(put, 0));
   }
-  if (::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fail_with_errno(fault);
+  if (fault == 0 && ::renameat(folder, kBeingWritten, folder, name.c_str()) != 0) fault = errno;
+  if (fault == 0) return;
+  ::unlinkat(folder, kBeingWritten, 0);
+  fail_with(fault, shown + " cannot be written");
 }
 
 }  // namespace
@@ -201,6 +203,11 @@ void JobFolders::put_input(const JobId& id, const std::string& name, std::string
   DEMECAL_CHECK(is_plain_name(name), "name=" << name);
   const OwnedDescriptor inputs = made_below(folder(id).get(), kInput, name_in_job(id, kInput));
   write_whole(inputs.get(), name, bytes, name);
+}
+
+void JobFolders::remove_unfinished(const JobId& id) const {
+  const OwnedDescriptor job = folder(id), inputs = open_below(job.get(), kInput, kFolder);
+  for (const OwnedDescriptor* const there : {&job, &inputs}) ::unlinkat(there->get(), kBeingWritten, 0);
 }
 
 bool JobFolders::remove_input(const JobId& id, const std::string& name) const {

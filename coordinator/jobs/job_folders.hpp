@@ -58,6 +58,8 @@ class JobFolders {
   std::vector<ListedFile> inputs(const JobId& id) const;
   std::string input(const JobId& id, const std::string& name) const;
   void put_input(const JobId& id, const std::string& name, std::string_view bytes) const;
+  /// What a program that was killed while it wrote left half done.
+  void remove_unfinished(const JobId& id) const;
   /// Whether there was such a file.
   bool remove_input(const JobId& id, const std::string& name) const;
 

@@ -81,6 +81,7 @@ JobService::JobService(JobServiceOptions options)
     : options_(std::move(options)), folders_(options_.folder), lock_(folders_.lock()), queue_(options_.queue) {
   for (const JobId& id : folders_.jobs()) {
     try {
+      folders_.remove_unfinished(id);
       queue_.restore(id, folders_.record(id));
     } catch (const std::system_error& error) {
       say(std::string(error.what()) + "; the job is left out");

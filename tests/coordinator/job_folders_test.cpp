@@ -149,6 +149,23 @@ TEST_F(JobFolder, SaysWhyAFileCannotBeReadOrWritten) {
   EXPECT_EQ(error_of([&] { folders.put_input(kJob, "b.csv", "1,2"); }), EIO);
 }
 
+TEST_F(JobFolder, KeepsNothingOfWhatWasNotWrittenWhole) {
+  const JobFolders folders(jobs());
+  folders.make(kJob);
+  folders.put_input(kJob, "a.csv", "before");
+  {
+    const FailingFiles failing;
+    EXPECT_EQ(error_of([&] { folders.put_input(kJob, "a.csv", "1,2"); }), EIO);
+  }
+  EXPECT_FALSE(fs::exists(job() / "input/.being-written")) << "it would fill a disk that is full";
+  EXPECT_EQ(folders.input(kJob, "a.csv"), "before");
+  std::ofstream(job() / "input/.being-written") << "half";
+  std::ofstream(job() / ".being-written") << "half";
+  folders.remove_unfinished(kJob);
+  EXPECT_FALSE(fs::exists(job() / "input/.being-written") || fs::exists(job() / ".being-written"));
+  EXPECT_EQ(folders.input(kJob, "a.csv"), "before");
+}
+
 TEST_F(JobFolder, MustBeAFolder) {
   EXPECT_THROW(JobFolders((outside_ / "secret").string()), InputError);
   EXPECT_THROW(JobFolders((outside_ / "secret/below").string()), InputError);
