@@ -110,13 +110,14 @@ double mean_noise_m(const CalibratedModel& model, const DataSet& data, const std
 }
 
 struct BothArms {
-  const CorrectedRobot& before;
+  const std::optional<CorrectedRobot>& before;  ///< none: the poses do not tell where it stands
   const CorrectedRobot& after;
 };
 
 std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const DataSet& data, const CertifiedRows& rows,
                                            const BothArms& arms, double tolerance_m) {
-  const std::vector<AttainedPose> before = attained_poses(data, rows, arms.before);
+  const std::vector<AttainedPose> before =
+      arms.before ? attained_poses(data, rows, *arms.before) : std::vector<AttainedPose>{};
   const std::vector<AttainedPose> after = attained_poses(data, rows, arms.after);
   std::vector<CertifiedPose> poses;
   for (std::size_t i = 0; i < after.size(); ++i) {
@@ -190,11 +191,23 @@ std::vector<std::size_t> placing_poses(const DataSet& data) {
   return {};
 }
 
-CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot) {
+namespace {
+
+/// Nothing where the poses are too few to tell base and tool.
+std::optional<CorrectedRobot> refitted_if_told(const DataSet& data, const DeclaredModel& base_and_tool,
+                                               const CorrectedRobot& robot) {
   const CertifiedRows placing = placing_poses(data);
   const Fit fit = fit_registration(data, placing.empty() ? judged_poses(data) : placing, base_and_tool, robot);
+  if (fit.status == FitStatus::too_few_poses) return std::nullopt;
   if (fit.status != FitStatus::converged) throw InputError({data.file, 0}, "", fit.sentence);
   return fit.robot;
+}
+
+}  // namespace
+
+CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool, const CorrectedRobot& robot) {
+  if (const std::optional<CorrectedRobot> told = refitted_if_told(data, base_and_tool, robot)) return *told;
+  throw InputError({data.file, 0}, "", "holds too few poses to fit base and tool to: measure more of them");
 }
 
 namespace {
@@ -235,10 +248,10 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
   const DeclaredModel base_and_tool{.registration = true, .tool = model.declared.tool};
   const CorrectedRobot after =
       run.refit_base ? refitted(data, {.registration = true, .tool = true}, model.robot) : model.robot;
-  const CorrectedRobot before = refitted(data, base_and_tool, nominal_robot(data));
+  const std::optional<CorrectedRobot> before = refitted_if_told(data, base_and_tool, nominal_robot(data));
   const std::vector<AttainedPose> poses = attained_poses(data, rows, after);
   if (poses.empty()) throw InputError({data.file, 0}, "", "holds neither positions nor lengths: nothing can be judged");
-  certificate.before = errors_of(before, data, rows);
+  if (before) certificate.before = errors_of(*before, data, rows);
   certificate.after = errors_of(after, data, rows);
   certificate.before_words =
       base_and_tool.tool ? "as its maker describes it, base and tool fitted" : "as its maker describes it, base fitted";
@@ -249,10 +262,8 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
   certificate.judgement = judge(errors_m, run.tolerance_m, instrument_m, mean_noise_m(model, data, poses));
   certificate.poses_to_decide = poses_to_decide(errors_m, certificate.judgement);
   CalibratedModel placed = model;
-  if (placed.posterior)
-    placed.posterior =
-        with_turned_base(*std::move(placed.posterior),
-                         after.sensor_from_base.linear() * model.robot.sensor_from_base.linear().transpose());
+  if (placed.posterior && placed.interval && run.refit_base)
+    placed.posterior = registered_posterior(*placed.posterior, *placed.interval, after, data, placing_poses(data));
   placed.robot = after;
   certificate.poses = certified_poses(placed, data, rows, {before, after}, run.tolerance_m);
   if (beyond_radii_sentence(certificate).empty())

@@ -96,7 +96,9 @@ class Remarks {
           "fit left, which holds the model's error too.");
     if (run_.refit_base)
       add("Base and tool were fitted to this data set's poses that are not judged before anything else.");
-    if (placing_poses(data_).empty())
+    if (!certificate_.before.mean_mm)
+      add("So few poses tell neither base nor tool of the arm as its maker describes it: no errors before are stated.");
+    else if (placing_poses(data_).empty())
       add("The data hold too few poses beside those that are judged: the errors before are those with the base fitted "
           "to the judged poses themselves.");
     add_on_range();

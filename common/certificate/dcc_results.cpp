@@ -81,8 +81,9 @@ void DccResults::errors(const SetErrors& errors) {
 void DccResults::results() {
   const std::string set = fmt::format("{} {} measurements", certificate_.judged_rows, certificate_.judged_set);
   const std::string& judged = certificate_.words.quantity;
-  result(judged + " before calibration: " + certificate_.before_words + ", " + set,
-         [&] { errors(certificate_.before); });
+  if (certificate_.before.mean_mm)
+    result(judged + " before calibration: " + certificate_.before_words + ", " + set,
+           [&] { errors(certificate_.before); });
   result(judged + " after calibration, " + set, [&] { errors(certificate_.after); });
   result("criteria of ISO 9283", [&] {
     for (const Characteristic& one : certificate_.characteristics) {
@@ -128,6 +129,7 @@ void DccResults::list_quantity(const std::string& name, std::optional<double> Ce
     with_uncertainty = with_uncertainty && pose.uncertainty_mm.has_value();
     if (with_uncertainty) uncertainties += decimal(*pose.uncertainty_mm) + " ";
   }
+  if (values.empty()) return;
   xml_.element("dcc:quantity", [&] {
     named("dcc:name", name);
     xml_.element("si:realListXMLList", [&] {
