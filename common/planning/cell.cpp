@@ -86,8 +86,11 @@ bool parts_meet(const ArmPart& one, const ArmPart& other) {
 }
 
 double reach_m(const Chain& chain) {
+  // A rail that carries the arm makes it no thicker.
+  auto first = std::ranges::find_if(chain.joints, [](const Joint& joint) { return is_revolute(joint); });
+  if (first == chain.joints.end()) first = chain.joints.begin();
   double reach = chain.tool_m.norm();
-  for (const Joint& joint : chain.joints) {
+  for (const Joint& joint : std::ranges::subrange(first, chain.joints.cend())) {
     reach += std::abs(joint.a_m) + std::abs(joint.d_m);
     if (!is_revolute(joint)) reach += std::max(std::abs(joint.lower), std::abs(joint.upper));
   }

@@ -49,7 +49,8 @@ std::vector<ArmPart> arm_parts(const Chain& chain, const JointVector& q, const s
 /// count.
 bool parts_meet(const ArmPart& one, const ArmPart& other);
 
-/// The sum of all lengths that links may have, m.
+/// The sum of all lengths that links may have from the first joint that turns on, m: a rail carries an arm and makes it
+/// no thicker.
 double reach_m(const Chain& chain);
 
 /// No part of an arm is thinner: smaller radii are metres written for millimetres.

@@ -40,6 +40,15 @@ TEST(AssumedRadii, AreNeverThinnerThanAnyArm) {
   for (const double radius_m : assumed_radii(small)) EXPECT_GE(radius_m, kLeastRadius_m);
 }
 
+TEST(AssumedRadii, AreNoLargerOnARail) {
+  const Chain arm = planned_arm().chain;
+  Chain on_rail = arm;
+  on_rail.joints.insert(on_rail.joints.begin(), Joint{.type = JointType::prismatic, .lower = 0.0, .upper = 10.0});
+  std::vector<double> with_rail = assumed_radii(on_rail);
+  with_rail.erase(with_rail.begin());
+  EXPECT_EQ(with_rail, assumed_radii(arm));
+}
+
 /// A cell that refuses some postures for every reason there is.
 WorkCell narrow_cell(const Robot& robot) {
   WorkCell cell = with_pole(assumed_cell(robot), 0.7);
