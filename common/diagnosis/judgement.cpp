@@ -28,27 +28,23 @@ double huber_square(double error, double threshold) {
   return error <= threshold ? error * error : threshold * (2.0 * error - threshold);
 }
 
-/// X^T X and X^T (what X explains and what is left) of one pose and its repeats.
-struct PoseSums {
-  Eigen::MatrixXd gram;
-  Eigen::VectorXd moment;
-};
-
-std::vector<PoseSums> pose_sums(const ResidualField& field, const Projection::Trial& trial,
-                                const Eigen::VectorXd& left) {
-  std::map<std::size_t, PoseSums> sums;
+/// A column for every pose and its repeats: X^T X, and X^T (what X explains and what is left) as its last column. Side
+/// by side, since resamplings read them in any order.
+Eigen::MatrixXd pose_sums(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left) {
+  const Eigen::Index m = trial.fitted.cols();
+  std::map<std::size_t, Eigen::Index> places;
+  for (const std::size_t group : field.group) places.try_emplace(group);
+  Eigen::Index place = 0;
+  for (auto& [group, own] : places) own = place++;
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(m * (m + 1), place);
   for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
     const auto columns = trial.fitted.middleRows(field.first_row[pose], field.rows_of_pose(pose));
     const auto rows = left.segment(field.first_row[pose], field.rows_of_pose(pose));
-    auto [at, fresh] = sums.try_emplace(field.group[pose]);
-    if (fresh)
-      at->second = {Eigen::MatrixXd::Zero(columns.cols(), columns.cols()), Eigen::VectorXd::Zero(columns.cols())};
-    at->second.gram += columns.transpose() * columns;
-    at->second.moment += columns.transpose() * rows;
+    Eigen::Map<Eigen::MatrixXd> own(sums.col(places[field.group[pose]]).data(), m, m + 1);
+    own.leftCols(m) += columns.transpose() * columns;
+    own.col(m) += columns.transpose() * rows;
   }
-  std::vector<PoseSums> all;
-  for (auto& [first, sum] : sums) all.push_back(std::move(sum));
-  return all;
+  return sums;
 }
 
 Eigen::VectorXd solve_normal_equations(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment) {
@@ -216,21 +212,19 @@ LargestMotion farthest_motion(const Effect& effect, const Robot& robot, const st
 
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
                     RandomStream random) {
-  const std::vector<PoseSums> sums = pose_sums(field, trial, left);
+  const Eigen::MatrixXd sums = pose_sums(field, trial, left);
   const Eigen::Index m = trial.coefficients.size();
   const Eigen::MatrixXd whole = square_product(trial.fitted);
   const std::uint64_t name = random.name();
   Eigen::MatrixXd drawn(m, draws);
   in_pieces(static_cast<std::size_t>(draws), [&](std::size_t draw) {
     RandomStream own{name, draw};
-    Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(m, m);
-    Eigen::VectorXd moment = Eigen::VectorXd::Zero(m);
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-      const PoseSums& pose = sums[own.index(sums.size())];
-      gram += pose.gram;
-      moment += pose.moment;
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m, m + 1);
+    for (Eigen::Index i = 0; i < sums.cols(); ++i) {
+      const auto pose = static_cast<Eigen::Index>(own.index(static_cast<std::size_t>(sums.cols())));
+      sum.reshaped() += sums.col(pose);
     }
-    drawn.col(static_cast<Eigen::Index>(draw)) = solve_normal_equations(gram, moment);
+    drawn.col(static_cast<Eigen::Index>(draw)) = solve_normal_equations(sum.leftCols(m), sum.col(m));
   });
   Resampled result;
   const Eigen::RowVectorXd along = (whole * trial.coefficients).transpose() * drawn;

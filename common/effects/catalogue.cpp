@@ -4,6 +4,8 @@
 #include <functional>
 #include <ranges>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 #include "effects/effect.hpp"
@@ -105,8 +107,13 @@ const std::vector<const EffectLaw*>& catalogue() {
 }
 
 const EffectLaw* find_law(std::string_view kind) {
-  const auto found = std::ranges::find_if(catalogue(), [&](const EffectLaw* law) { return law->kind() == kind; });
-  return found == catalogue().end() ? nullptr : *found;
+  static const auto by_kind = [] {  // asked for at every pose
+    std::unordered_map<std::string_view, const EffectLaw*> laws;
+    for (const EffectLaw* const law : catalogue()) laws.emplace(law->kind(), law);
+    return laws;
+  }();
+  const auto found = by_kind.find(kind);
+  return found == by_kind.end() ? nullptr : found->second;
 }
 
 const EffectLaw& law_of(const Effect& effect) {

@@ -58,6 +58,7 @@ double JointCorrection::slope(double theta_rad) const {
 std::vector<EffectMotion> effect_motions(const std::vector<Effect>& effects, const Robot& described,
                                          const ArmState& state) {
   std::vector<EffectMotion> all;
+  all.reserve(2 * effects.size());  // waves have two coefficients
   std::vector<UnitMotion> motions;
   for (std::size_t i = 0; i < effects.size(); ++i) {
     motions.clear();
