@@ -105,8 +105,9 @@ double side_of(const std::optional<JointVector>& way, int joint);
 
 /// A share of every joint's way that joints or points are off by, all joints alike, since they were taken while the arm
 /// moved. Where errors are no larger than an arm's may be it explains more than lost motion of each joint, a wrong gain
-/// of each, and the way on the other side of the stop. It leaves no more than `most_m` at the median. Rows come back as
-/// the arm stood, `placed` and `fit` fitted to them.
+/// of each, and the way on the other side of the stop. Or the same of one joint alone, which explains what no lost
+/// motion or gears of all joints do. It leaves no more than `most_m` at the median. Rows come back as the arm stood,
+/// `placed` and `fit` fitted to them.
 std::optional<Finding> find_taken_in_motion(const DataSet& data, double most_m, CheckedRows& rows, TrialFit& placed,
                                             TrialFit& fit);
 

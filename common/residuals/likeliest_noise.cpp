@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <span>
@@ -36,16 +37,19 @@ std::vector<std::size_t> taking_part(const NoiseRows& rows) {
   return taken;
 }
 
-/// The smallest value of a function of a positive number, over kVariances and between the best one's neighbours.
-double likeliest_variance(const std::function<double(double)>& minus_twice_log) {
-  std::size_t best = 0;
-  double least = std::numeric_limits<double>::infinity();
+/// Which of kVariances makes a function least, and how little that is.
+std::pair<std::size_t, double> likeliest_of_few(const std::function<double(double)>& minus_twice_log) {
+  std::pair<std::size_t, double> best{0, std::numeric_limits<double>::infinity()};
   for (std::size_t i = 0; i < kVariances.size(); ++i) {
     const double value = minus_twice_log(kVariances[i]);
-    if (value >= least) continue;
-    least = value;
-    best = i;
+    if (value < best.second) best = {i, value};
   }
+  return best;
+}
+
+/// The smallest value of a function of a positive number, over kVariances and between the best one's neighbours.
+double likeliest_variance(const std::function<double(double)>& minus_twice_log) {
+  const std::size_t best = likeliest_of_few(minus_twice_log).first;
   double lower = std::log(kVariances[best == 0 ? 0 : best - 1]),
          upper = std::log(kVariances[std::min(best + 1, kVariances.size() - 1)]);
   constexpr double kGolden = 0.618034;
@@ -111,6 +115,7 @@ class Components {
     const Eigen::Index count = likelihood_.joint_shares().size();
     const Eigen::MatrixXd alike = Eigen::MatrixXd::Identity(count, count) -
                                   Eigen::MatrixXd::Constant(count, count, 1.0 / static_cast<double>(count));
+    Eigen::MatrixXd told;
     for (int step = 0; step < kSteps; ++step) {
       const auto [slope, information] = likelihood_.along_joint_variances(variances);
       const Eigen::VectorXd logs = likelihood_.joint_shares().array().log();
@@ -118,12 +123,69 @@ class Components {
       const Eigen::VectorXd change =
           PivotedCholesky(curvature).solve(slope - alike * logs).cwiseMax(-1.0).cwiseMin(1.0);
       likelihood_.set_joint_shares((logs + change).array().exp());
+      told = information;
       if (change.cwiseAbs().maxCoeff() < kSettled) break;
     }
+    const Eigen::VectorXd logs = likelihood_.joint_shares().array().log();
+    cost_of_shares_ = logs.dot(alike * logs) +
+                      Cholesky(Eigen::MatrixXd::Identity(count, count) + alike * told * alike).log_determinant();
     const double mean = likelihood_.joint_shares().mean();
     variances[RestrictedLikelihood::joints] *= mean;
     likelihood_.set_joint_shares(likelihood_.joint_shares() / mean);
     least_ = value();
+  }
+
+  /// One joint that repeats badly among others that do not: alike, joints are then hardly likelier than none, and are
+  /// further apart than they are believed to be. Kept where it is likelier by more than the choice of one costs; what
+  /// shares near each other cost of belief, and of the room that they had, is no likelihood of theirs.
+  bool estimate_one_joint(double nats) {
+    constexpr double kMostShareAlone = 1e5;  ///< a joint that hardly moves points makes none of their scatter
+    const Eigen::Index count = likelihood_.joint_shares().size();
+    if (count < 2) return false;
+    const Eigen::VectorXd before = likelihood_.joint_shares();
+    const auto alone = [&](Eigen::Index joint) {
+      likelihood_.set_joint_shares(likelihood_.share_alone(joint) * Eigen::VectorXd::Unit(count, joint));
+    };
+    std::array<double, 3> trial = variances;
+    const auto value_at = [&](double variance) {
+      trial[RestrictedLikelihood::joints] = variance;
+      return likelihood_.minus_twice_log(trial);
+    };
+    std::pair<Eigen::Index, double> best{0, std::numeric_limits<double>::infinity()};
+    for (Eigen::Index joint = 0; joint < count; ++joint) {
+      if (likelihood_.share_alone(joint) > kMostShareAlone) continue;
+      alone(joint);
+      if (const double value = likeliest_of_few(value_at).second; value < best.second) best = {joint, value};
+    }
+    if (std::isinf(best.second)) return false;
+    alone(best.first);
+    const double variance = likeliest_variance(value_at), least = value_at(variance);
+    const double choice = 2.0 * (nats + std::log(static_cast<double>(count)));
+    if (least + choice >= least_ + cost_of_shares_) {
+      likelihood_.set_joint_shares(before);
+      return false;
+    }
+    variances[RestrictedLikelihood::joints] = variance;
+    least_ = least;
+    estimate_rest(best.first, nats);
+    return true;
+  }
+
+  /// What the other joints scatter, alike, beside the one that stands out.
+  void estimate_rest(Eigen::Index one, double nats) {
+    const Eigen::VectorXd alone = likelihood_.joint_shares();
+    Eigen::VectorXd best = alone;
+    double least = least_ - 2.0 * nats;
+    for (const double rest : {0.001, 0.003, 0.01, 0.03, 0.1}) {
+      Eigen::VectorXd shares = Eigen::VectorXd::Constant(alone.size(), rest * alone[one]);
+      shares[one] = alone[one];
+      likelihood_.set_joint_shares(shares);
+      if (value() >= least) continue;
+      least = value();
+      best = shares;
+    }
+    likelihood_.set_joint_shares(best);
+    estimate(RestrictedLikelihood::joints, nats);
   }
 
   bool others_than_joints() const {
@@ -137,7 +199,7 @@ class Components {
   double value() const { return likelihood_.minus_twice_log(variances); }
 
   RestrictedLikelihood& likelihood_;
-  double least_;
+  double least_, cost_of_shares_ = 0.0;
 };
 
 }  // namespace
@@ -157,17 +219,22 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
     order_nats = 0.0;
     components.estimate_order(std::span(kCorrelations).last(kSlow), order_nats);
   }
-  constexpr int kSweeps = 2;  // components take from one another
-  for (int sweep = 0; sweep < kSweeps && components.others_than_joints(); ++sweep) {
-    components.estimate(RestrictedLikelihood::joints, kLikelier);
-    if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
-    if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, order_nats);
-  }
+  const auto share_out = [&] {  // components take from one another
+    constexpr int kSweeps = 2;
+    for (int sweep = 0; sweep < kSweeps && components.others_than_joints(); ++sweep) {
+      components.estimate(RestrictedLikelihood::joints, kLikelier);
+      if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
+      if (components.correlation > 0.0) components.estimate(RestrictedLikelihood::order, order_nats);
+    }
+  };
+  share_out();
   components.estimate_joints_apart();
+  if (components.estimate_one_joint(kLikelier)) share_out();
   const double scale = std::sqrt(likelihood.variance_left(components.variances));
-  const Eigen::VectorXd& shares = likelihood.joint_shares();
+  const double mean_share = likelihood.joint_shares().mean();
+  const Eigen::VectorXd shares = likelihood.joint_shares() / mean_share;
   const auto& [joint, repeat, order] = components.variances;
-  return {.model = {.joint_rad = scale * std::sqrt(joint / likelihood.per_joint_square()),
+  return {.model = {.joint_rad = scale * std::sqrt(joint * mean_share / likelihood.per_joint_square()),
                     .repeats = std::sqrt(repeat),
                     .order = std::sqrt(order),
                     .correlation = order > 0.0 ? components.correlation : 0.0,

@@ -32,6 +32,7 @@ struct NoiseEstimate {
 
 /// The components of variance of which the residuals are likeliest, the model's numbers integrated out (restricted
 /// maximum likelihood; Patterson and Thompson, 1971). A component is zero where it makes the residuals hardly likelier.
+/// Joints scatter by about the same, or one by far more than the others.
 /// At most some 360 rows take part, in three runs of poses.
 NoiseEstimate estimate_noise(const NoiseRows& rows);
 
@@ -52,6 +53,8 @@ class RestrictedLikelihood {
   /// How much of the joints' variance each of them has; one of all at first.
   void set_joint_shares(const Eigen::VectorXd& shares);
   const Eigen::VectorXd& joint_shares() const { return joint_shares_; }
+  /// The share at which one joint alone, the others having none, makes as much of the rows as all alike do.
+  double share_alone(Eigen::Index joint) const { return alike_over_alone_[joint]; }
   /// The log-likelihood's slope along the logarithm of each joint's variance, and what the data tell of it (Fisher's
   /// information).
   struct Slope {
@@ -75,7 +78,7 @@ class RestrictedLikelihood {
   std::array<Eigen::MatrixXd, 3> covariance_;
   Eigen::MatrixXd turns_;                  ///< of each joint in turn: one column a pose
   std::vector<Eigen::MatrixXd> of_joint_;  ///< covariances that each joint alone gives, freedom x freedom
-  Eigen::VectorXd joint_shares_;
+  Eigen::VectorXd joint_shares_, alike_over_alone_;
   std::vector<Eigen::Index> first_row_;
   std::vector<double> order_;
   double per_joint_square_ = 1.0, neighbourhood_ = 0.0;

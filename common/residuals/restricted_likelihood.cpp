@@ -66,6 +66,10 @@ void RestrictedLikelihood::take_joints(const NoiseRows& rows, const std::vector<
   const Eigen::Index own = std::ssize(poses);
   for (Eigen::Index joint = 0; joint < joints_count; ++joint)
     of_joint_.push_back(product_with_itself(turns_.middleCols(joint * own, own)));
+  alike_over_alone_.resize(joints_count);
+  for (Eigen::Index joint = 0; joint < joints_count; ++joint)
+    alike_over_alone_[joint] =
+        motions.squaredNorm() / std::max(motions.middleCols(joint * own, own).squaredNorm(), 1e-300);
   set_joint_shares(Eigen::VectorXd::Ones(joints_count));
 }
 

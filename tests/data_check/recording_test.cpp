@@ -77,6 +77,41 @@ TEST(Recording, JointsThatWereReadBeforeTheArmStoodAreNamed) {
   }
 }
 
+/// Each pose once.
+DataSet without_repeats(DataSet data) {
+  const auto is_repeat = [](const MeasuredPose& one, const MeasuredPose& other) { return one.joints == other.joints; };
+  data.poses.erase(std::ranges::unique(data.poses, is_repeat).begin(), data.poses.end());
+  return data;
+}
+
+TEST(Recording, OneJointThatWasReadBeforeItStoodIsNamed) {
+  for (const DataSet& repeated : long_measurements(15)) {
+    const DataSet right = without_repeats(repeated);
+    for (const Eigen::Index joint : {0, 2}) {
+      DataSet early = right, lost = right, geared = right;
+      for (std::size_t i = 1; i < right.poses.size(); ++i) {
+        const double way = right.poses[i].joints[joint] - right.poses[i - 1].joints[joint];
+        early.poses[i].joints[joint] -= 0.003 * way;
+        lost.poses[i].joints[joint] += way > 0.0 ? 1e-3 : -1e-3;
+        geared.poses[i].joints[joint] += 3e-3 * right.poses[i].joints[joint];
+      }
+      const DataCheck check = check_data(early);
+      const auto told = sentences(check, FindingKind::taken_in_motion);
+      ASSERT_EQ(told.size(), 1U) << right.robot.name << " " << joint << " of " << right.poses.size();
+      const std::string begin = "Joint " + std::to_string(joint + 1) + " was read before it stood: ";
+      ASSERT_TRUE(told.front().starts_with(begin)) << told.front();
+      EXPECT_NEAR(std::stod(told.front().substr(begin.size())), 0.3, 0.04) << told.front();
+      for (const Finding& finding : check.findings) {
+        if (finding.kind == FindingKind::taken_in_motion) {
+          EXPECT_EQ(finding.joint, joint) << finding.sentence;
+        }
+      }
+      EXPECT_FALSE(check_data(lost).has(FindingKind::taken_in_motion)) << right.robot.name << " " << joint;
+      EXPECT_FALSE(check_data(geared).has(FindingKind::taken_in_motion)) << right.robot.name << " " << joint;
+    }
+  }
+}
+
 TEST(Recording, WhatWasTakenWhileTheArmMovedIsNamed) {
   for (const DataSet& right : long_measurements(9)) {
     DataSet points = right, left = right;
@@ -97,13 +132,6 @@ TEST(Recording, WhatWasTakenWhileTheArmMovedIsNamed) {
     EXPECT_TRUE(told(points).starts_with("Points were measured before the arm stood"))
         << right.robot.name << told(points);
   }
-}
-
-/// Each pose once.
-DataSet without_repeats(DataSet data) {
-  const auto is_repeat = [](const MeasuredPose& one, const MeasuredPose& other) { return one.joints == other.joints; };
-  data.poses.erase(std::ranges::unique(data.poses, is_repeat).begin(), data.poses.end());
-  return data;
 }
 
 TEST(Recording, WhatWasTakenFarFromTheStopIsNotAnotherRobots) {

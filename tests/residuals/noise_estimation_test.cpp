@@ -103,6 +103,52 @@ TEST(NoiseModel, JointsThatScatterMoreThanOthersAreToldFromThem) {
   EXPECT_NEAR(found[1], 0.5, 0.25);
 }
 
+/// One joint whose noise is `of_rows` of the independent one, over rows; the others have `rest` of its variance.
+struct FoundBesideOne {
+  double own = 0.0, others = 0.0;  ///< variances, over that of the one joint
+  double scale_off = 0.0;          ///< root mean square of its logarithm
+};
+
+FoundBesideOne one_joint_scatters(NoisyArm& tested, RandomStream& stream, double of_rows, double rest) {
+  constexpr int kDraws = 6;
+  constexpr std::size_t kNoisy = 4;
+  const double joint_rad = of_rows / std::sqrt(tested.rows.joint_motions.col(kNoisy).squaredNorm() /
+                                               static_cast<double>(tested.field.rows()));
+  std::vector<double> shares(6, rest);
+  shares[kNoisy] = 1.0;
+  FoundBesideOne found;
+  for (int i = 0; i < kDraws; ++i) {
+    draw(tested, {.joint_rad = joint_rad, .joint_shares = shares}, 1.0, stream);
+    const NoiseEstimate noise = estimate_noise(tested.rows);
+    for (std::size_t each = 0; each < 6; ++each)
+      (each == kNoisy ? found.own : found.others) +=
+          noise.model.joint_variance_rad2(each) / (joint_rad * joint_rad) / kDraws;
+    found.scale_off += std::pow(std::log(noise.scale), 2) / kDraws;
+  }
+  found.scale_off = std::sqrt(found.scale_off);
+  return found;
+}
+
+TEST(NoiseModel, OneJointAloneThatScattersIsFound) {
+  RandomStream stream{91, 7};
+  NoisyArm tested = noisy_arm(stream, 60);
+  for (const double of_rows : {1.5, 3.0}) {
+    const FoundBesideOne found = one_joint_scatters(tested, stream, of_rows, 0.0);
+    EXPECT_NEAR(found.own, 1.0, 0.35) << of_rows;
+    EXPECT_LT(found.others, 0.1) << of_rows;
+    EXPECT_LT(found.scale_off, 0.15) << of_rows;
+  }
+}
+
+TEST(NoiseModel, WhatOthersScatterBesideOneJointIsNoIndependentNoise) {
+  RandomStream stream{91, 8};
+  NoisyArm tested = noisy_arm(stream, 100);
+  const FoundBesideOne found = one_joint_scatters(tested, stream, 6.0, 0.003);
+  EXPECT_NEAR(found.own, 1.0, 0.35);
+  EXPECT_NEAR(found.others, 5 * 0.003, 0.01);
+  EXPECT_LT(found.scale_off, 0.12);
+}
+
 TEST(NoiseModel, DriftInOrderIsFound) {
   RandomStream stream{91, 2};
   NoisyArm tested = noisy_arm(stream, 100);
