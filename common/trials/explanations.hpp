@@ -104,12 +104,14 @@ struct Jump {
 std::optional<Jump> find_zero_jump(const Trial& trial, const TrialFit& fit);
 
 /// The same of a tool, or of all of them at once, that stands elsewhere on the flange from a row on: bent, or another.
+/// Drift of instrument, joints and that tool must explain it worse.
 std::optional<Jump> find_tool_jump(const Trial& trial, const TrialFit& fit);
 
 /// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, and
 /// beyond drift, linear, settling or there and back, and what goes with sides of approach, payload and temperature, or
-/// two zeros of a joint, or two tools, do in fewer nats, and looks again; `trial` comes back with a station for every
-/// place, joints of one zero, and a tool for every one that there was, `fit` fitted to it.
+/// two zeros of a joint, or two tools, do in fewer nats, with what comes near them as rivals, and looks again; `trial`
+/// comes back with a station for every place, joints of one zero, and a tool for every one that there was, `fit` fitted
+/// to it.
 std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit);
 
 /// How a set of poses differs from the others by its frame or by its tool.
