@@ -128,88 +128,12 @@ class DataChecker {
     add(std::move(finding));
   }
 
-  /// Moves of the instrument among the calibration poses; the other rows get the station of their neighbours.
   void note_moves() {
-    const std::vector<InstrumentMove> moves = find_moves(trial_, fit_);
-    for (const InstrumentMove& move : moves)
-      if (move.joint >= 0) note_zero(move);
-    assign_stations();
-    for (const InstrumentMove& move : moves) {
-      if (move.joint >= 0) continue;
-      const std::size_t row = first_row_of(trial_.rows[move.first_row].station);
-      const MeasuredPose& pose = data_.poses[whole_.rows[row].pose];
-      Finding finding{.kind = FindingKind::instrument_moved,
-                      .as_given_mm = millimetres(move.as_given_m),
-                      .if_changed_mm = millimetres(move.if_changed_m)};
-      for (std::size_t i = row; i < whole_.rows.size(); ++i) finding.poses.push_back(id_of(whole_.rows[i]));
-      finding.sentence = fmt::format(
-          "The instrument (or the robot's base) moved before line {}{}: from there on points lie {} elsewhere {}. "
-          "Treat the poses before and after as two data sets, or measure again.",
-          pose.line, name_beside_line(pose), distance_text(move.shift_m),
-          before_and_after(move.as_given_m, move.if_changed_m));
-      add(std::move(finding));
-    }
+    CheckedRows rows{whole_, trial_};
+    for (Finding& finding : take_out_moves(data_, rows, fit_)) add(std::move(finding));
+    whole_ = std::move(rows.whole);
+    trial_ = std::move(rows.trial);
   }
-
-  /// Of the rows between two of the trial those are behind the change that fit better so.
-  void note_zero(const InstrumentMove& move) {
-    const std::size_t pose = trial_.rows[move.first_row].pose, before = trial_.rows[move.first_row - 1].pose;
-    auto first = std::ranges::find(whole_.rows, pose, &TrialRow::pose);
-    while (first != whole_.rows.begin() && std::prev(first)->pose != before) {
-      TrialRow other = *std::prev(first);
-      other.joints[move.joint] += move.by;
-      if (error(other) >= error(*std::prev(first))) break;
-      --first;
-    }
-    Finding finding{.kind = FindingKind::joint_zero_changed,
-                    .joint = move.joint,
-                    .as_given_mm = millimetres(move.as_given_m),
-                    .if_changed_mm = millimetres(move.if_changed_m)};
-    const MeasuredPose& there = data_.poses[first->pose];
-    for (auto row = first; row != whole_.rows.end(); ++row) {
-      row->joints[move.joint] += move.by;
-      finding.poses.push_back(id_of(*row));
-    }
-    const Joint& joint = whole_.chain.joints[static_cast<std::size_t>(move.joint)];
-    finding.sentence = fmt::format(
-        "The zero of joint {} changed before line {}{}, by {}, as after a collision or a new mastering{}: from "
-        "there "
-        "on points lie {} elsewhere {}. Treat the poses before and after as two data sets, or measure again.",
-        move.joint + 1, there.line, name_beside_line(there),
-        is_revolute(joint) ? fmt::format("{:.3f} deg", degrees(std::abs(move.by))) : distance_text(std::abs(move.by)),
-        move.joint == 0 ? ", or the instrument turned about the axis of joint 1" : "", distance_text(move.shift_m),
-        before_and_after(move.as_given_m, move.if_changed_m));
-    add(std::move(finding));
-  }
-
-  /// Rows between two of the trial belong to the station of which their errors say so, in one change.
-  void assign_stations() {
-    if (trial_.stations == 1) return;
-    std::size_t next = 0;
-    for (TrialRow& row : whole_.rows) {
-      while (next + 1 < trial_.rows.size() && trial_.rows[next].pose < row.pose) ++next;
-      row.station = trial_.rows[next].station;
-    }
-    for (int station = 1; station < trial_.stations; ++station) {
-      // Rows just before the change in the trial may belong to either side.
-      const auto first = std::ranges::find(whole_.rows, station, &TrialRow::station);
-      for (auto row = first; row != whole_.rows.begin() && row != whole_.rows.end();) {
-        TrialRow other = *row;
-        other.station = station - 1;
-        if (error(*row) <= error(other) || row->pose == trial_first_pose(station)) break;
-        row->station = station - 1;
-        ++row;
-      }
-    }
-  }
-
-  std::size_t trial_first_pose(int station) const {
-    return std::ranges::find(trial_.rows, station, &TrialRow::station)->pose;
-  }
-  std::size_t first_row_of(int station) const {
-    return static_cast<std::size_t>(std::ranges::find(whole_.rows, station, &TrialRow::station) - whole_.rows.begin());
-  }
-  double error(const TrialRow& row) const { return (row.point_m - predicted_point(fit_, row)).norm(); }
 
   /// Sets that fit only by themselves, then single poses of all sets.
   void check_rows() {

@@ -49,6 +49,10 @@ std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whol
 /// The same rows where they are farther off than any arm errs, and nothing that was tried explains them.
 std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);
 
+/// Moves of the instrument among the calibration poses, and zeros of joints and tools that changed. Rows come back with
+/// the stations, zeros and tools that say so, `fit` fitted to them.
+std::vector<Finding> take_out_moves(const DataSet& data, CheckedRows& rows, TrialFit& fit);
+
 /// Whether base and tools alone bring the nominal arm to the points as closely as their file is rounded, or to a
 /// hundred thousandth of its reach: then nobody measured them. `placed`: the fit of base and tools to `trial`.
 std::optional<Finding> find_computed_positions(const Trial& trial, const TrialFit& placed);

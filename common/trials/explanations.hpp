@@ -72,7 +72,12 @@ std::optional<RowReordering> shift_of_rest(const Trial& whole);
 /// and closer by far than points of a cloud do.
 std::optional<RowReordering> find_shuffled_rows(const Trial& whole, double near_m);
 
-/// A move of the instrument (or of the base) between two rows, or of a joint's zero.
+/// One tool in the place of another, by their numbers.
+struct OtherTool {
+  int before = 0, behind = 0;
+};
+
+/// A move of the instrument (or of the base) between two rows, of a joint's zero, or of a tool.
 struct InstrumentMove {
   std::size_t first_row = 0;  ///< of the trial, from which it stood elsewhere
   double shift_m = 0.0;       ///< how far measured points jump, root mean square over the rows behind
@@ -80,24 +85,33 @@ struct InstrumentMove {
   double if_changed_m = 0.0;  ///< with two
   int joint = -1;             ///< from 0, of which the zero changed; -1: the instrument moved
   double by = 0.0;            ///< what must be added to that joint from the row on, rad or m
+  std::vector<OtherTool> other_tools{};  ///< from the row on
+  int numbers = 6;                       ///< that describe the move
+  /// Others that explain the rows as well, to within what the points tell; theirs is empty.
+  std::vector<InstrumentMove> rivals{};
 };
 
-/// A joint's zero that changed between two rows.
-struct ZeroJump {
+/// A joint's zero, or a tool, that changed between two rows.
+struct Jump {
   InstrumentMove move;
-  Trial trial;  ///< with joints as they were if so
+  Trial trial;  ///< with joints, or tools, as they were if so
   TrialFit fit;
 };
 
 /// The row and joint where another zero from there on explains the rows far better than one zero does, better than
 /// drift of all joints, linear or settling, from the first row on, and beyond what goes with sides of approach, payload
 /// and temperature.
-std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit);
+std::optional<Jump> find_zero_jump(const Trial& trial, const TrialFit& fit);
+
+/// The same of a tool, or of all of them at once, that stands elsewhere on the flange from a row on: bent, or another.
+/// Drift of instrument, joints and that tool must explain it worse.
+std::optional<Jump> find_tool_jump(const Trial& trial, const TrialFit& fit);
 
 /// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, and
 /// beyond drift, linear, settling or there and back, and what goes with sides of approach, payload and temperature, or
-/// two zeros of a joint do in fewer nats, and looks again; `trial` comes back with a station for every place and joints
-/// of one zero, `fit` fitted to it.
+/// two zeros of a joint, or two tools, do in fewer nats, with what comes near them as rivals, and looks again; `trial`
+/// comes back with a station for every place, joints of one zero, and a tool for every one that there was, `fit` fitted
+/// to it.
 std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit);
 
 /// How a set of poses differs from the others by its frame or by its tool.

@@ -27,6 +27,7 @@ constexpr int kMostMoves = 3;
 constexpr double kCap = 6.0;               ///< deviations beyond which an error says no more
 constexpr double kLeastGain = 50.0;        ///< log likelihood that another place of the instrument must gain
 constexpr double kLeastGainBeyond = 25.0;  ///< the same beside drift and the conditions that files state
+constexpr double kLeastApart = 10.0;       ///< nats by which points tell two changes apart
 constexpr double kLeastShift = 5.0;        ///< deviations that points must jump by: drift within a run is smaller
 
 double capped_cost(const PointPairs& pairs, std::size_t begin, std::size_t end, const Eigen::Isometry3d& base,
@@ -135,14 +136,26 @@ double root_mean_square_shift(const TrialFit& fit, std::span<const TrialRow> row
   return std::sqrt(squares / static_cast<double>(rows.size()));
 }
 
-/// What a fit leaves and its numbers cost, in nats (half a logarithm of the coordinates each).
-double cost_nats(const TrialFit& fit, int numbers, const ZeroJump& jump) {
-  double sum = 0.5 * numbers * std::log(3.0 * static_cast<double>(fit.error_m.size()));
-  for (const double error_m : fit.error_m) {
-    const double off = std::min(error_m / jump.fit.deviation_m, kCap);
+/// What the fit to a change leaves and the change's numbers cost, in nats (half a logarithm of the coordinates each).
+double cost_nats(const Jump& jump, double deviation_m) {
+  double sum = 0.5 * jump.move.numbers * std::log(3.0 * static_cast<double>(jump.fit.error_m.size()));
+  for (const double error_m : jump.fit.error_m) {
+    const double off = std::min(error_m / deviation_m, kCap);
     sum += 0.5 * off * off;
   }
   return sum;
+}
+
+/// The cheapest of several changes of which each explains the rows, with those that cost hardly more as its rivals.
+Jump cheapest(std::vector<Jump> jumps) {
+  const double deviation_m =
+      std::ranges::min(jumps, {}, [](const Jump& jump) { return jump.fit.deviation_m; }).fit.deviation_m;
+  const auto cost = [deviation_m](const Jump& jump) { return cost_nats(jump, deviation_m); };
+  std::ranges::stable_sort(jumps, {}, cost);
+  Jump best = std::move(jumps.front());
+  for (std::size_t i = 1; i < jumps.size(); ++i)
+    if (cost(jumps[i]) < cost(best) + kLeastApart * best.fit.rows_per_pose) best.move.rivals.push_back(jumps[i].move);
+  return best;
 }
 
 /// How points move with an instrument that stands elsewhere at the rows of a segment: six columns.
@@ -209,17 +222,15 @@ std::vector<InstrumentMove> find_moves(Trial& trial, TrialFit& fit) {
         move.shift_m > std::max(kLeastShift * deviation_m, kSmallestShift_m) &&
         move.if_changed_m < std::min(kLeastFall * move.as_given_m, kMostOverUsual * both.usual_m) &&
         gain_beyond_others(trial, fit, behind, move.shift_m, deviation_m) > kLeastGainBeyond * both.rows_per_pose;
-    auto jump = find_zero_jump(trial, fit);
-    if (jump && (!found || cost_nats(jump->fit, 1, *jump) < cost_nats(both, 6, *jump))) {
-      moves.push_back(jump->move);
-      trial = std::move(jump->trial);
-      fit = std::move(jump->fit);
-      continue;
-    }
-    if (!found) break;
-    moves.push_back(move);
-    trial = std::move(moved);
-    fit = std::move(both);
+    std::vector<Jump> jumps;
+    if (auto zero = find_zero_jump(trial, fit)) jumps.push_back(std::move(*zero));
+    if (auto tool = find_tool_jump(trial, fit)) jumps.push_back(std::move(*tool));
+    if (found) jumps.push_back({move, std::move(moved), std::move(both)});
+    if (jumps.empty()) break;
+    Jump best = cheapest(std::move(jumps));
+    moves.push_back(std::move(best.move));
+    trial = std::move(best.trial);
+    fit = std::move(best.fit);
   }
   std::ranges::sort(moves, is_earlier);
   return moves;

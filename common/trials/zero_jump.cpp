@@ -111,13 +111,13 @@ double median_between(const std::vector<double>& errors, std::size_t begin, std:
 
 }  // namespace
 
-std::optional<ZeroJump> find_zero_jump(const Trial& trial, const TrialFit& fit) {
+std::optional<Jump> find_zero_jump(const Trial& trial, const TrialFit& fit) {
   const std::size_t n = trial.rows.size();
   if (n < 2 * kFewestAside + 2 || !fit.has_links()) return std::nullopt;
   const ProjectedColumns projected(trial, fit);
   const JumpStart start = best_start(trial, fit, projected);
   if (start.gain < kGainOverDrift) return std::nullopt;
-  ZeroJump jump{{.first_row = start.row, .joint = start.joint, .by = start.by}, trial, fit};
+  Jump jump{{.first_row = start.row, .joint = start.joint, .by = start.by, .numbers = 1}, trial, fit};
   for (int i = 0; i < kRefits; ++i) {
     jump.trial = jumped(trial, start.joint, jump.move.first_row, jump.move.by);
     jump.fit = fit_arm(jump.trial, fit_base_and_tools(jump.trial));
