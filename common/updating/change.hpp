@@ -1,21 +1,16 @@
-// Whether a robot is still as its model has it, and what has changed: a test of few new poses, and the rows of unit
-// variance that it compares.
+// Whether a robot is still as its model has it, and what has changed: a test of few new poses.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "data/written_steps.hpp"
 #include "effects/effect.hpp"
-#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline updating {
 
@@ -69,28 +64,5 @@ struct ChangeReport {
 /// repeats lie apart where that is more than the model's noise. Throws InputError where the poses are too few, or are
 /// not of this arm.
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects = {});
-
-/// What may happen to an arm between two measurements: what is declared of most models, and what depends on the side a
-/// joint comes from or on the temperature; single numbers where they are of a joint.
-std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses);
-
-/// Residuals and columns, made independent of unit variance by the model's noise and covariance.
-struct ChangeRows {
-  Eigen::VectorXd values;
-  std::vector<Eigen::MatrixXd> columns;  ///< by effect
-  double unstated_m = 0.0;               ///< how far what poses do not state may move the tool, rms
-};
-
-/// The poses that are compared, and by what.
-struct ComparedPoses {
-  const CorrectedRobot& robot;  ///< the model's, in the data's frame
-  const std::vector<std::size_t>& poses;
-  double noise_m = 0.0;      ///< per axis
-  bool set_up_anew = false;  ///< the base was found again: it is known to nothing but these poses
-  JointSteps rounding{};     ///< by which joints were rounded when they were written; 0: they are as commanded
-};
-
-ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
-                       const std::vector<Effect>& effects);
 
 }  // namespace demecal::inline updating

@@ -1,3 +1,4 @@
+#include "updating/change_rows.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data/written_steps.hpp"
@@ -9,7 +10,6 @@
 #include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
-#include "updating/change.hpp"
 #include "updating/unstated.hpp"
 
 #include <Eigen/Core>
@@ -109,7 +109,7 @@ ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const 
   for (const Effect& effect : effects) columns.append(effect, data.robot, field.states);
   columns.pack();
   const Cholesky root(covariance);
-  ChangeRows rows{root.whitened(field.residual), {}, unstated * compared.noise_m};
+  ChangeRows rows{root.whitened(field.residual), {}, field.first_row, unstated * compared.noise_m};
   for (std::size_t i = 0; i < effects.size(); ++i)
     rows.columns.push_back(root.whitened(Eigen::MatrixXd(columns.dense(field, i))));
   return rows;
