@@ -20,8 +20,11 @@
 #include "updating/change_rows.hpp"
 #include "updating/expected_noise.hpp"
 #include "updating/joint_rounding.hpp"
+#include "updating/orientation_noise.hpp"
 #include "updating/repeats.hpp"
+#include "updating/unseen_zeros.hpp"
 #include "updating/unstated.hpp"
+#include "updating/warmed_zeros.hpp"
 
 namespace demecal::inline updating {
 namespace {
@@ -48,7 +51,7 @@ class ChangeSearch {
   /// `base_may_move`: it is found again where the errors are large.
   ChangeSearch(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects,
                bool base_may_move)
-      : model_(model), distinct_(distinct_poses(data)), data_(distinct_.data) {
+      : model_(model), distinct_(distinct_poses(without_unknown_orientations(model, data))), data_(distinct_.data) {
     for (const MeasuredPose& pose : data.poses)
       if (is_measured(pose)) ++report_.measurements;
     for (std::size_t i = 0; i < data_.poses.size(); ++i)
@@ -62,15 +65,21 @@ class ChangeSearch {
     const ExpectedNoise noise = expected_noise(model_, robot_, data, distinct_, poses_);
     report_.noise_m = noise.noise_m;
     report_.not_testable = noise.sentences;
-    known_rows_ = noise.known_rows;
-    effects_ = possible_changes(data_, poses_);
+    known_positions_ = noise.known_rows;
+    compare_orientations();
   }
 
   bool set_up_anew() const { return report_.set_up_anew; }
-
   ChangeReport run() {
-    ChangeRows rows = make_rows();
-    if (leave_out_gross(rows)) rows = make_rows();
+    ScaledChangeRows scaled = scaled_rows(robot_);
+    ChangeRows rows = whitened(scaled);
+    if (leave_out_gross(rows)) {
+      compare_orientations();
+      scaled = scaled_rows(robot_);
+      rows = whitened(scaled);
+    }
+    report_.orientation_rad = orientation_rad_;
+    report_.unseen_zeros = unseen_zeros(scaled, rows, effects_, report_.set_up_anew);
     report_.error_m = rms_m(robot_);
     report_.lacking = unstated_sentences(robot_, data_, poses_, rows.unstated_m, report_.noise_m);
     const double chance_of_left = judge(rows);
@@ -97,9 +106,21 @@ class ChangeSearch {
     }
   }
 
-  ChangeRows make_rows() const { return make_rows(robot_); }
-  ChangeRows make_rows(const CorrectedRobot& robot) const {
-    return change_rows(model_, data_, {robot, poses_, report_.noise_m, report_.set_up_anew, rounding_}, effects_);
+  ComparedPoses compared(const CorrectedRobot& robot) const {
+    return {robot, poses_, report_.noise_m, orientation_rad_, report_.set_up_anew, rounding_};
+  }
+  ScaledChangeRows scaled_rows(const CorrectedRobot& robot) const {
+    return scaled_change_rows(model_, data_, compared(robot), effects_);
+  }
+
+  /// Estimates how far orientations scatter, and compares them where that can be told.
+  void compare_orientations() {
+    constexpr double kFewestRows = 6.0;
+    effects_ = possible_changes(data_, poses_, true);
+    const OrientationNoise noise = orientation_noise(model_, data_, compared(robot_), effects_);
+    orientation_rad_ = noise.freedom >= kFewestRows ? noise.noise_rad : 0.0;
+    if (orientation_rad_ == 0.0) effects_ = possible_changes(data_, poses_, false);
+    known_rows_ = orientation_rad_ == 0.0 ? known_positions_ : std::min(known_positions_, noise.freedom);
   }
 
   /// Whether any was.
@@ -144,7 +165,7 @@ class ChangeSearch {
     if (!rounding) return;
     rounding_ = rounding->steps;
     report_.not_testable.push_back(rounding->sentence);
-    judge(make_rows());
+    judge(whitened(scaled_rows(robot_)));
   }
 
   /// Finds the causes; returns the chance of as much as they leave by noise alone.
@@ -173,6 +194,7 @@ class ChangeSearch {
       report_.verdict =
           std::max(report_.verdict, cause.is_registration ? ChangeVerdict::registration : ChangeVerdict::changed);
     if (report_.set_up_anew) report_.verdict = std::max(report_.verdict, ChangeVerdict::registration);
+    report_.warmed = warmed_zeros(report_.found, report_.tried, robot_);
     report_.more = !report_.found.empty() && strain_of(rows) > report_.strain_limit;
     report_.unnamed = report_.found.empty() && report_.p_any < kErrorOfAny;
     if (report_.unnamed) report_.left_m = report_.error_m;
@@ -192,7 +214,7 @@ class ChangeSearch {
 
   /// Takes the causes into the robot, and linearises there again while they explain more so: what they leave of the
   /// rows. Large zeros and tools turn the arm, and what is second order in one looks like a little of others.
-  ChangeRows refit(Linearised& at, std::vector<ChangeCause>& found) const {
+  ChangeRows refit(Linearised& at, std::vector<ChangeCause>& found) {
     constexpr int kMostRounds = 5;
     constexpr double kWorth = 0.99;
     const auto amounts_at = [&](const ChangeRows& rows) {
@@ -201,12 +223,22 @@ class ChangeSearch {
     ChangeAmounts amounts = amounts_at(at.rows);
     at.taken_in.conservativeResizeLike(Eigen::VectorXd::Zero(amounts.values.size()));
     set_amounts(at.taken_in + amounts.values, amounts.variances, data_.robot, found);
+    bool moved = false;
     for (int round = 0; round < kMostRounds; ++round) {
-      Linearised next{make_rows(with_causes(found)), at.taken_in + amounts.values};
+      Linearised next{whitened(scaled_rows(with_causes(found))), at.taken_in + amounts.values};
       ChangeAmounts beyond = amounts_at(next.rows);
       if (!(beyond.left < kWorth * amounts.left)) break;
+      moved = true;
       at = std::move(next);
       amounts = std::move(beyond);
+      set_amounts(at.taken_in + amounts.values, amounts.variances, data_.robot, found);
+    }
+    if (moved && orientation_rad_ > 0.0) {
+      // What was second order counted as their noise.
+      const CorrectedRobot robot = with_causes(found);
+      orientation_rad_ = orientation_noise(model_, data_, compared(robot), effects_).noise_rad;
+      at = {whitened(scaled_rows(robot)), at.taken_in + amounts.values};
+      amounts = amounts_at(at.rows);
       set_amounts(at.taken_in + amounts.values, amounts.variances, data_.robot, found);
     }
     ChangeRows rows = at.rows;
@@ -232,7 +264,9 @@ class ChangeSearch {
   CorrectedRobot robot_;
   std::vector<std::size_t> poses_;
   std::vector<Effect> effects_;
-  double known_rows_ = 0.0;  ///< what is known of the noise's size counts as so many rows more
+  /// What is known of the noise's size counts as so many rows more; the same of positions alone.
+  double known_rows_ = 0.0, known_positions_ = 0.0;
+  double orientation_rad_ = 0.0;  ///< noise of orientations, per axis; 0: they are not compared
   JointSteps rounding_;
   ChangeReport report_;
 };
