@@ -76,6 +76,10 @@ class Remarks {
 
   /// Of positions and lengths that an instrument saw.
   void add_on_measurement() {
+    const bool turned = std::ranges::any_of(judged_poses(data_),
+                                            [&](std::size_t row) { return data_.poses[row].orientation.has_value(); });
+    add(turned ? "Orientations were measured but are not judged: only positions are."
+               : "Orientation was not judged: only positions are.");
     if (std::string beyond = beyond_radii_sentence(certificate_); !beyond.empty()) add(std::move(beyond));
     if (!run_.fields.instrument_uncertainty_m)
       add("The instrument's uncertainty is not stated (instrument_uncertainty_mm): errors of the instrument that all "

@@ -8,6 +8,7 @@
 
 #include "effects/effect.hpp"
 #include "kinematics/units.hpp"
+#include "next_measurement/next_measurement.hpp"
 #include "parameters/declared_model.hpp"
 
 namespace demecal::inline studies {
@@ -31,6 +32,10 @@ bool is_lost_motion(const ChangeCause& cause) {
 bool stops_beyond(const ChangeCause& cause) {
   constexpr double kSure = 2.0;
   return is_lost_motion(cause) && *cause.by_model + cause.size < -kSure * cause.standard_error;
+}
+
+bool heats(const ChangeCause& cause) {
+  return law_of(cause.effect).prerequisite() == Circumstance::temperature;
 }
 
 bool has_grown(const ChangeCause& cause) {
@@ -66,7 +71,28 @@ std::vector<std::string> advice_on_joints(const ChangeReport& change) {
     const std::string joints = named_joints(change, is_of);
     if (!joints.empty()) advice.push_back(before + joints + after);
   };
-  add(is_zero, "Look at ", ": where a zero has moved, master it again");
+  const auto may_be_heat = [&](const ChangeCause& cause) {
+    return is_zero(cause) && std::ranges::any_of(change.warmed, [&](const WarmedZero& one) {
+             return one.may_be_heat && one.joint == cause.effect.joint;
+           });
+  };
+  const auto may_be_tool = [&](const ChangeCause& cause) {
+    return is_zero(cause) && std::ranges::any_of(change.tried, [&](const ChangeCause& tool) {
+             return law_of(tool.effect).subject() == Subject::tool &&
+                    std::ranges::count(cause.rivals, to_string(tool.effect)) > 0;
+           });
+  };
+  add(may_be_heat, "Look at the temperature first: heat alone may do what was found of ",
+      ", whose zero need not have moved. Check again at the temperature of the "
+      "calibration, and master the joint only "
+      "where its zero is off then, too");
+  add(may_be_tool,
+      "See first whether the target was turned or shifted on the flange, which "
+      "these poses cannot tell "
+      "from the zero of ",
+      "");
+  add([&](const ChangeCause& cause) { return is_zero(cause) && !may_be_heat(cause); }, "Look at ",
+      ": where a zero has moved, master it again");
   add(has_grown, "Have the gear of ", " inspected, whose lost motion has grown");
   add(has_fallen, "The lost motion of ",
       " is less than the model corrects for, as after work on a gear: what was corrected by the "
@@ -74,7 +100,10 @@ std::vector<std::string> advice_on_joints(const ChangeReport& change) {
   add(stops_beyond, "See whether the signs of approach of ",
       " are stated the right way round, and whether the "
       "controller makes up for more lost motion than there is");
-  add([&](const ChangeCause& cause) { return !is_zero(cause) && !is_lost_motion(cause); }, "Look at ", "");
+  add([&](const ChangeCause& cause) { return !is_zero(cause) && !is_lost_motion(cause) && !heats(cause); }, "Look at ",
+      "");
+  add([&](const ChangeCause& cause) { return heats(cause); }, "Let a model correct what the temperature does to ",
+      ", or have the arm as warm as it was at its calibration");
   return advice;
 }
 
@@ -123,6 +152,24 @@ std::pair<std::string, double> shown_unit(const std::string& unit) {
   return {unit, 1.0};
 }
 
+std::string sentence_on(const ChangeReport& change, const ChangeCause& cause, const Robot& robot) {
+  std::string sentence = sentence_on(cause, robot);
+  if (declared_flag(cause.effect.kind) != &DeclaredModel::joint_offset) return sentence;
+  for (const WarmedZero& one : change.warmed) {
+    if (one.joint != cause.effect.joint || !one.unmoved_celsius) continue;
+    sentence.pop_back();
+    sentence += fmt::format(" at {:.1f} °C, the mean of these poses; ", *one.found_celsius);
+    if (one.may_be_heat)
+      sentence += fmt::format("at {:.1f} °C it is where the model has it{}.", *one.unmoved_celsius,
+                              one.by_model_celsius ? "" : ", which does not state at which temperature that holds");
+    else if (one.by_model_celsius)
+      sentence += fmt::format("at {:.1f} °C, the model's reference, it is off as well.", *one.by_model_celsius);
+    else
+      sentence += "at no usual temperature is it where the model has it.";
+  }
+  return sentence;
+}
+
 std::string sentence_on(const ChangeCause& cause, const Robot& robot) {
   const EffectLaw& law = law_of(cause.effect);
   if (!cause.by_model || *cause.by_model == 0.0) return law.diagnosis(cause.effect, robot);
@@ -141,7 +188,10 @@ std::string sentence_on(const ChangeCause& cause, const Robot& robot) {
 std::string what_to_do(const ChangeReport& change, const std::string& model_file) {
   if (change.unnamed) return what_to_do_about_unnamed(change, model_file);
   if (change.found.empty() && change.set_up_anew)
-    return "The robot itself is as it was; its base was found again in the instrument's new frame.";
+    return "The robot itself is as it was; its base was found again in the "
+           "instrument's new frame.";
+  if (change.found.empty() && change.lacking.empty() && !change.unseen_zeros.empty())
+    return "Nothing needs to be done about what these poses see.";
   if (change.found.empty())
     return change.lacking.empty()
                ? "Nothing needs to be done."

@@ -16,6 +16,9 @@ std::pair<std::string, double> shown_unit(const std::string& unit);
 /// end there.
 std::string sentence_on(const ChangeCause& cause, const Robot& robot);
 
+/// The same of a cause that was found, and of a zero at which temperature.
+std::string sentence_on(const ChangeReport& change, const ChangeCause& cause, const Robot& robot);
+
 /// What to do, in sentences; `model_file` is the one that was compared.
 std::string what_to_do(const ChangeReport& change, const std::string& model_file);
 

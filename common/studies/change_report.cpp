@@ -31,7 +31,7 @@ std::string chance_text(double p) {
 
 using Json = nlohmann::ordered_json;
 
-Json cause_json(const ChangeCause& cause, const Robot& robot) {
+Json cause_json(const ChangeCause& cause, const std::string& sentence) {
   const auto [unit, per_inside] = shown_unit(cause.unit);
   return {{"kind", cause.effect.kind},
           {"joint", cause.effect.joint < 0 ? Json() : Json(cause.effect.joint + 1)},
@@ -44,7 +44,7 @@ Json cause_json(const ChangeCause& cause, const Robot& robot) {
           {"smallest_detectable", std::isfinite(cause.detectable) ? Json(cause.detectable * per_inside) : Json()},
           {"power", cause.power},
           {"rivals", cause.rivals},
-          {"sentence", sentence_on(cause, robot)}};
+          {"sentence", sentence}};
 }
 
 /// With their lines, since names may repeat.
@@ -61,8 +61,9 @@ std::string left_out_line(const ChangeReport& change, const DataSet& data) {
 
 std::string answer(const ChangeReport& change) {
   if (change.verdict == ChangeVerdict::unchanged)
-    return change.lacking.empty() ? "The robot is as it was."
-                                  : "As far as these poses can tell, the robot is as it was.";
+    return change.lacking.empty() && change.unseen_zeros.empty()
+               ? "The robot is as it was."
+               : "As far as these poses can tell, the robot is as it was.";
   if (change.verdict == ChangeVerdict::registration)
     return change.set_up_anew ? "The robot is as it was; the instrument was set up anew."
                               : "The robot is as it was, but its base stands elsewhere in the instrument's frame.";
@@ -85,6 +86,8 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"strain", change.strain},
             {"strain_limit", change.strain_limit},
             {"noise_mm", millimetres(change.noise_m)},
+            {"orientations_judged", change.orientation_rad > 0.0},
+            {"orientation_noise_deg", change.orientation_rad > 0.0 ? Json(degrees(change.orientation_rad)) : Json()},
             {"error_mm", {{"by_model", millimetres(change.error_m)}, {"explained", millimetres(change.left_m)}}},
             {"cause", Json()},
             {"causes", Json::array()},
@@ -92,15 +95,24 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"outliers", Json::array()},
             {"not_testable", change.lacking},
             {"advice", what_to_do(change, model_file)}};
+  json["unseen_zeros"] = Json::array();
+  for (const UnseenZero& one : change.unseen_zeros) {
+    json["unseen_zeros"].push_back(one.joint + 1);
+    json["not_testable"].push_back(one.sentence);
+  }
   for (const std::string& sentence : change.not_testable) json["not_testable"].push_back(sentence);
-  for (const ChangeCause& cause : change.found) json["causes"].push_back(cause_json(cause, data.robot));
-  if (!change.found.empty()) json["cause"] = cause_json(change.found.front(), data.robot);
+  const auto of_found = [&](const ChangeCause& cause) {
+    return cause_json(cause, sentence_on(change, cause, data.robot));
+  };
+  for (const ChangeCause& cause : change.found) json["causes"].push_back(of_found(cause));
+  if (!change.found.empty()) json["cause"] = of_found(change.found.front());
   for (const ChangeCause& cause : change.found)
     if (!cause.is_registration) {
-      json["cause"] = cause_json(cause, data.robot);
+      json["cause"] = of_found(cause);
       break;
     }
-  for (const ChangeCause& cause : change.tried) json["tried"].push_back(cause_json(cause, data.robot));
+  for (const ChangeCause& cause : change.tried)
+    json["tried"].push_back(cause_json(cause, sentence_on(cause, data.robot)));
   for (const std::size_t pose : change.outliers) json["outliers"].push_back(data.poses[pose].pose_id);
   return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
 }
@@ -108,8 +120,9 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
 std::string change_text(const ChangeReport& change, const DataSet& data, const std::string& model_file) {
   std::string text = answer(change) + '\n';
   for (const std::string& sentence : change.lacking) text += "  " + sentence + '\n';
+  for (const UnseenZero& one : change.unseen_zeros) text += "  " + one.sentence + '\n';
   for (const ChangeCause& cause : change.found) {
-    text += "  " + sentence_on(cause, data.robot) + '\n';
+    text += "  " + sentence_on(change, cause, data.robot) + '\n';
     text += fmt::format("    p {} (all causes tried: p {})\n", chance_text(cause.p_value), chance_text(cause.p_family));
     if (!cause.rivals.empty())
       text += fmt::format("    cannot be distinguished with these poses from: {}\n", fmt::join(cause.rivals, ", "));
@@ -117,9 +130,11 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
   text += "  " + what_to_do(change, model_file) + '\n';
   text += fmt::format("  errors of the tool: rms {:.3g} mm by the model", millimetres(change.error_m));
   if (!change.found.empty()) text += fmt::format(", {:.3g} mm once this is taken in", millimetres(change.left_m));
-  text += fmt::format("; {} poses{}, noise {:.3g} mm per axis\n", change.poses,
-                      change.measurements > change.poses ? fmt::format(" measured {} times", change.measurements) : "",
-                      millimetres(change.noise_m));
+  text +=
+      fmt::format("; {} poses{}, noise {:.3g} mm{} per axis\n", change.poses,
+                  change.measurements > change.poses ? fmt::format(" measured {} times", change.measurements) : "",
+                  millimetres(change.noise_m),
+                  change.orientation_rad > 0.0 ? fmt::format(" and {:.2g} deg", degrees(change.orientation_rad)) : "");
   if (!change.outliers.empty()) text += left_out_line(change, data);
   text += "  what these poses find nine times in ten:\n";
   for (const ChangeCause& cause : change.tried) {

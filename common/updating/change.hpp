@@ -1,21 +1,16 @@
-// Whether a robot is still as its model has it, and what has changed: a test of few new poses, and the rows of unit
-// variance that it compares.
+// Whether a robot is still as its model has it, and what has changed: a test of few new poses.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <set>
-#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "data/written_steps.hpp"
 #include "effects/effect.hpp"
-#include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline updating {
 
@@ -39,6 +34,21 @@ struct ChangeCause {
       by_model{};  ///< how much of it the model has, to which `size` adds; of zeros, tool, base: nothing
 };
 
+/// A zero of a joint that these poses do not show: whatever it is, the rows stay as they are.
+struct UnseenZero {
+  int joint = 0;         ///< from 0
+  std::string sentence;  ///< for people: why, and what to do
+};
+
+/// The zero of a joint that was found to be off, beside or instead of what the temperature does to it.
+struct WarmedZero {
+  int joint = 0;                             ///< from 0
+  std::optional<double> found_celsius{};     ///< at which it is off by as much as was found
+  std::optional<double> unmoved_celsius{};   ///< at which it is where the model has it
+  std::optional<double> by_model_celsius{};  ///< the reference of the model's own effect of that joint
+  bool may_be_heat = false;                  ///< heat alone would do as much
+};
+
 struct ChangeReport {
   ChangeVerdict verdict = ChangeVerdict::unchanged;
   bool set_up_anew = false;           ///< the instrument's frame is another: the base was found again
@@ -53,6 +63,9 @@ struct ChangeReport {
   std::vector<std::size_t> outliers;  ///< poses (in the data set) that were left out; of repeats, the first
   std::vector<ChangeCause> found;     ///< in the order they were found
   std::vector<ChangeCause> tried;     ///< all, the likeliest first
+  double orientation_rad = 0.0;  ///< noise of orientations per axis, as these poses show it; 0: they are not judged
+  std::vector<UnseenZero> unseen_zeros;   ///< by joint
+  std::vector<WarmedZero> warmed;         ///< of zeros found
   std::vector<std::string> not_testable;  ///< sentences
   std::vector<std::string> lacking;       ///< sentences: what of the model poses do not let it apply
   bool unnamed = false;                   ///< changed, but by nothing that was tried
@@ -60,37 +73,14 @@ struct ChangeReport {
 };
 
 /// Holds the model's predictions against all poses of `data` that measured positions or distances, repeats of one as
-/// their mean. Errors by the model's covariance and its noise are expected; what explains more than 5 % of such samples
-/// would (of all causes tried) has changed. Causes are added one after another; where they leave most of errors that
-/// are far beyond what is expected, none is named; where they leave more than one unchanged robot in a thousand would,
-/// the robot has changed whatever they are. Poses of the names `suspects` are left out where they are a quarter
-/// at most. Where joints are written coarsely, and errors are left that nothing explains, their rounding counts as
-/// noise; so does what effects of the model may have done at poses that do not state what these depend on, and how far
-/// repeats lie apart where that is more than the model's noise. Throws InputError where the poses are too few, or are
-/// not of this arm.
+/// their mean; with orientations, where the model was fitted to such and these poses show how far they scatter. Errors
+/// by the model's covariance and its noise are expected; what explains more than 5 % of such samples would (of all
+/// causes tried) has changed. Causes are added one after another; where they leave most of errors that are far beyond
+/// what is expected, none is named; where they leave more than one unchanged robot in a thousand would, the robot has
+/// changed whatever they are. Poses of the names `suspects` are left out where they are a quarter at most. Where joints
+/// are written coarsely, and errors are left that nothing explains, their rounding counts as noise; so does what
+/// effects of the model may have done at poses that do not state what these depend on, and how far repeats lie apart
+/// where that is more than the model's noise. Throws InputError where the poses are too few, or are not of this arm.
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects = {});
-
-/// What may happen to an arm between two measurements: what is declared of most models, and what depends on the side a
-/// joint comes from or on the temperature; single numbers where they are of a joint.
-std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses);
-
-/// Residuals and columns, made independent of unit variance by the model's noise and covariance.
-struct ChangeRows {
-  Eigen::VectorXd values;
-  std::vector<Eigen::MatrixXd> columns;  ///< by effect
-  double unstated_m = 0.0;               ///< how far what poses do not state may move the tool, rms
-};
-
-/// The poses that are compared, and by what.
-struct ComparedPoses {
-  const CorrectedRobot& robot;  ///< the model's, in the data's frame
-  const std::vector<std::size_t>& poses;
-  double noise_m = 0.0;      ///< per axis
-  bool set_up_anew = false;  ///< the base was found again: it is known to nothing but these poses
-  JointSteps rounding{};     ///< by which joints were rounded when they were written; 0: they are as commanded
-};
-
-ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
-                       const std::vector<Effect>& effects);
 
 }  // namespace demecal::inline updating

@@ -1,3 +1,4 @@
+#include "updating/change_rows.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "data/written_steps.hpp"
@@ -9,7 +10,6 @@
 #include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
-#include "updating/change.hpp"
 #include "updating/unstated.hpp"
 
 #include <Eigen/Core>
@@ -70,9 +70,9 @@ void add_rounding(const ResidualField& field, const Chain& chain, const JointSte
 
 }  // namespace
 
-std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses) {
+std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses, bool orientations) {
   Evidence evidence = evidence_of(data, poses);
-  evidence.orientation = false;
+  evidence.orientation = orientations;
   std::vector<Effect> effects;
   for (const EffectLaw* law : catalogue()) {
     const bool circumstance =
@@ -80,7 +80,8 @@ std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::s
     if (declared_flag(law->kind()) == nullptr && !circumstance) continue;
     const std::vector<std::string> forms = law->forms();
     for (Effect& effect : law->proposals(data.robot, evidence)) {
-      const bool plain = effect.form.empty() || forms.empty() || effect.form == forms.front();
+      const bool plain =
+          law->subject() == Subject::tool || effect.form.empty() || forms.empty() || effect.form == forms.front();
       const bool single = law->coefficients(effect, data.robot).size() == 1;
       if (plain && (single || law->subject() != Subject::joint)) effects.push_back(std::move(effect));
     }
@@ -88,30 +89,39 @@ std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::s
   return effects;
 }
 
-ChangeRows change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
-                       const std::vector<Effect>& effects) {
+ScaledChangeRows scaled_change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
+                                    const std::vector<Effect>& effects) {
   std::vector<ParameterId> ids;
   if (model.posterior) ids = model.posterior->ids;
   const ParameterSpace space(compared.robot, ids);
   const double distance_m =
       model.interval ? std::hypot(model.interval->distance_noise_m, model.interval->model_error_m) : 0.0;
-  const RowScales scales{compared.noise_m, 0.0, distance_m > 0.0 ? distance_m : compared.noise_m};
+  const RowScales scales{compared.noise_m, compared.orientation_rad, distance_m > 0.0 ? distance_m : compared.noise_m};
   const ResidualField field = residual_field(data, compared.poses, space, scales, false);
-  Eigen::MatrixXd covariance = Eigen::MatrixXd::Identity(field.rows(), field.rows());
+  ScaledChangeRows rows{field.residual, {}, Eigen::MatrixXd::Zero(field.rows(), field.rows()), field.first_row, {}};
   if (model.posterior) {
     const Eigen::MatrixXd known = uncertain_rows(*model.posterior, field);
-    covariance += known * known.transpose();
+    rows.covariance += known * known.transpose();
   }
-  if (compared.set_up_anew) add_base(field, covariance);
-  add_rounding(field, data.robot.chain, compared.rounding, covariance);
-  const double unstated = add_unstated(compared.robot, data, field, covariance);
+  if (compared.set_up_anew) add_base(field, rows.covariance);
+  add_rounding(field, data.robot.chain, compared.rounding, rows.covariance);
+  rows.unstated_m = compared.noise_m * add_unstated(compared.robot, data, field, rows.covariance);
   EffectColumns columns;
   for (const Effect& effect : effects) columns.append(effect, data.robot, field.states);
   columns.pack();
-  const Cholesky root(covariance);
-  ChangeRows rows{root.whitened(field.residual), {}, unstated * compared.noise_m};
-  for (std::size_t i = 0; i < effects.size(); ++i)
-    rows.columns.push_back(root.whitened(Eigen::MatrixXd(columns.dense(field, i))));
+  for (std::size_t i = 0; i < effects.size(); ++i) rows.columns.emplace_back(columns.dense(field, i));
+  for (std::size_t pose = 0; compared.orientation_rad > 0.0 && pose < field.poses.size(); ++pose) {
+    const RowCounts count = count_rows(data.poses[field.poses[pose]]);
+    for (int i = 0; i < count[kOrientation]; ++i) rows.turned.push_back(field.first_row[pose] + count[kPosition] + i);
+  }
+  return rows;
+}
+
+ChangeRows whitened(const ScaledChangeRows& scaled) {
+  const Eigen::Index n = scaled.values.size();
+  const Cholesky root(Eigen::MatrixXd::Identity(n, n) + scaled.covariance);
+  ChangeRows rows{root.whitened(scaled.values), {}, scaled.first_row, scaled.unstated_m};
+  for (const Eigen::MatrixXd& columns : scaled.columns) rows.columns.push_back(root.whitened(columns));
   return rows;
 }
 

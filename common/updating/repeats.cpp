@@ -3,6 +3,7 @@
 #include "kinematics/chain.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -24,6 +25,7 @@ bool is_repeat(const MeasuredPose& one, const MeasuredPose& other) {
          one.contact == other.contact && one.station == other.station && one.approach == other.approach &&
          one.payload_kg == other.payload_kg && same_temperature(one.temperature_celsius, other.temperature_celsius) &&
          one.position_m.has_value() == other.position_m.has_value() &&
+         one.orientation.has_value() == other.orientation.has_value() &&
          one.distances_m.size() == other.distances_m.size();
 }
 
@@ -32,6 +34,7 @@ void take_in(MeasuredPose& mean, const MeasuredPose& pose, double count) {
   const double share = 1.0 / (count + 1.0);
   mean.joints += share * (pose.joints - mean.joints);
   if (pose.position_m) *mean.position_m += share * (*pose.position_m - *mean.position_m);
+  if (pose.orientation) mean.orientation = mean.orientation->slerp(share, *pose.orientation).normalized();
   for (std::size_t i = 0; i < pose.distances_m.size(); ++i)
     mean.distances_m[i] += share * (pose.distances_m[i] - mean.distances_m[i]);
   if (pose.temperature_celsius)

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -204,6 +205,8 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
   evaluation.length_errors = length_error_entries(data, robot, nullptr);
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
   fmt::print(stderr, "{}", to_terminal(evaluation.data_check, ShownFindings::all));
+  if (std::ranges::any_of(data.poses, [](const MeasuredPose& pose) { return pose.orientation.has_value(); }))
+    fmt::print(stderr, "{}: orientations are not judged, only positions are\n", data.file);
   for (const UnappliedEffect& one : evaluation.effects_not_applied)
     fmt::print(stderr, "{}: {}\n", data.file, one.sentence);
   fmt::print("{}", request.json ? to_json(evaluation) : to_terminal(evaluation));

@@ -131,6 +131,14 @@ void draw_sets(SentArm& arm) {
     arm.data().poses[i].set = i % 3 == 0 ? PoseSet::validation : PoseSet::calibration;
 }
 
+TEST(Certificate, SaysThatOrientationIsNotJudged) {
+  SentArm arm(31);
+  add_others(arm, PoseSet::accept, 8);
+  EXPECT_TRUE(remarks_on(certificate_of(arm, run_at(1e-3)), "Orientation was not judged"));
+  for (MeasuredPose& pose : arm.data().poses) pose.orientation = Eigen::Quaterniond::Identity();
+  EXPECT_TRUE(remarks_on(certificate_of(arm, run_at(1e-3)), "Orientations were measured but are not judged"));
+}
+
 TEST(Certificate, SaysOnlyOfTheModelsOwnPosesThatTheyHadAPartInIt) {
   SentArm arm(33);
   add_others(arm, PoseSet::validation, 8);

@@ -110,6 +110,52 @@ TEST(ChangeReport, OfAnEffectByTemperatureStatesTheWhole) {
   EXPECT_TRUE(says(change, "By the model it was 2e-05 rad/K, now it is 3e-05."));
 }
 
+TEST(ChangeReport, SaysRightAfterTheVerdictWhichZerosThePosesDoNotSee) {
+  ChangeReport change;
+  change.unseen_zeros = {{5, "The zero of joint 6 cannot be seen."}};
+  EXPECT_TRUE(
+      says(change, "As far as these poses can tell, the robot is as it was.\n  The zero of joint 6 cannot be seen.\n"));
+  EXPECT_FALSE(says(change, "Nothing needs to be done."));
+  const std::string json = to_json(change, DataSet{}, "model.yaml");
+  EXPECT_NE(json.find("\"not_testable\":[\"The zero of joint 6 cannot be seen.\"]"), std::string::npos);
+  EXPECT_NE(json.find("\"unseen_zeros\":[6]"), std::string::npos);
+  EXPECT_NE(json.find("\"orientation_noise_deg\":null"), std::string::npos);
+  change.orientation_rad = 1e-4;
+  EXPECT_TRUE(says(change, "and 0.0057 deg per axis"));
+  EXPECT_NE(to_json(change, DataSet{}, "model.yaml").find("\"orientations_judged\":true"), std::string::npos);
+}
+
+TEST(ChangeReport, TakesTheZeroOfAJointForHeatFirstWhereThatDoesAsMuch) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  ChangeCause heat;
+  heat.effect = {.kind = "thermal_offset", .joint = 1, .settings = {{"reference_celsius", 28.0}}, .values = {5e-5}};
+  heat.unit = "rad/K";
+  change.found = {zero_of(2), heat};
+  EXPECT_TRUE(says(change, "Look at joint 2: where a zero has moved, master it again"));
+  EXPECT_TRUE(says(change, "correct what the temperature does to joint 2"));
+  EXPECT_FALSE(says(change, "Look at joint 2."));
+  change.warmed = {{1, 28.0, 20.0, {}, true}};
+  EXPECT_TRUE(says(change, "at 28.0 °C, the mean of these poses; at 20.0 °C it is where the model has it, which"));
+  EXPECT_TRUE(says(change, "Look at the temperature first: heat alone may do what was found of joint 2"));
+  EXPECT_FALSE(says(change, "where a zero has moved"));
+  change.warmed = {{1, 28.0, 90.0, 20.0, false}};
+  EXPECT_TRUE(says(change, "at 20.0 °C, the model's reference, it is off as well."));
+  EXPECT_TRUE(says(change, "where a zero has moved, master it again"));
+}
+
+TEST(ChangeReport, LooksAtTheTargetBeforeTheZeroOfALastJoint) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  ChangeCause tool;
+  tool.effect = {.kind = "tool", .form = "pose"};
+  change.found = change.tried = {zero_of(6)};
+  change.tried.push_back(tool);
+  EXPECT_FALSE(says(change, "turned or shifted on the flange"));
+  change.found.front().rivals = {"tool (pose)"};
+  EXPECT_TRUE(says(change, "See first whether the target was turned or shifted on the flange"));
+}
+
 TEST(ChangeReport, SaysFirstWhatPosesDoNotState) {
   ChangeReport change;
   change.lacking = {"The temperature is not stated."};

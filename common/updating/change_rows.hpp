@@ -1,0 +1,52 @@
+// The rows of unit variance by which new poses are compared with a model, and the causes that are tried on them.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "closed_calibration/calibrated_model.hpp"
+#include "data/data_set.hpp"
+#include "data/written_steps.hpp"
+#include "effects/effect.hpp"
+#include "prediction/corrected_robot.hpp"
+
+namespace demecal::inline updating {
+
+/// What may happen to an arm between two measurements: what is declared of most models, and what depends on the side a
+/// joint comes from or on the temperature; single numbers where they are of a joint. `orientations`: of the tool its
+/// turn too.
+std::vector<Effect> possible_changes(const DataSet& data, std::span<const std::size_t> poses, bool orientations);
+
+/// The poses that are compared, and by what.
+struct ComparedPoses {
+  const CorrectedRobot& robot;  ///< the model's, in the data's frame, perhaps with what changed
+  const std::vector<std::size_t>& poses;
+  double noise_m = 0.0;          ///< per axis
+  double orientation_rad = 0.0;  ///< noise of orientations, per axis; 0: they are not compared
+  bool set_up_anew = false;      ///< the base was found again: it is known to nothing but these poses
+  JointSteps rounding{};         ///< by which joints were rounded when they were written; 0: they are as commanded
+};
+
+/// Residuals and columns in units of the noise.
+struct ScaledChangeRows {
+  Eigen::VectorXd values;
+  std::vector<Eigen::MatrixXd> columns;  ///< by effect
+  Eigen::MatrixXd covariance;           ///< of what model, base, joints and circumstances add to noise of unit variance
+  std::vector<Eigen::Index> first_row;  ///< of each pose compared, and one past the last
+  std::vector<Eigen::Index> turned;     ///< rows of orientations
+  double unstated_m = 0.0;              ///< how far what poses do not state may move the tool, rms
+};
+ScaledChangeRows scaled_change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
+                                    const std::vector<Effect>& effects);
+
+/// The same made independent of unit variance.
+struct ChangeRows {
+  Eigen::VectorXd values;
+  std::vector<Eigen::MatrixXd> columns;
+  std::vector<Eigen::Index> first_row;
+  double unstated_m = 0.0;
+};
+ChangeRows whitened(const ScaledChangeRows& scaled);
+
+}  // namespace demecal::inline updating

@@ -1,0 +1,67 @@
+#include "updating/warmed_zeros.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "next_measurement/next_measurement.hpp"
+#include "parameters/declared_model.hpp"
+
+namespace demecal::inline updating {
+namespace {
+
+constexpr const char* kReference = "reference_celsius";
+
+bool is_of_heat(const ChangeCause& cause) {
+  return law_of(cause.effect).prerequisite() == Circumstance::temperature;
+}
+
+/// A zero that moves with the temperature.
+bool warms(const ChangeCause& cause, const ChangeCause& zero) {
+  return is_of_heat(cause) && cause.effect.joint == zero.effect.joint && cause.unit == zero.unit + "/K";
+}
+
+std::optional<double> reference_by_model(const CorrectedRobot& robot, const Effect& like) {
+  for (const Effect& effect : robot.effects)
+    if (effect.kind == like.kind && effect.joint == like.joint && effect.settings.contains(kReference))
+      return effect.setting(kReference);
+  return std::nullopt;
+}
+
+/// Where heat by itself does what was found, the zero is as it was at the temperature of the model, or of some hall.
+void compare(const ChangeCause& zero, const ChangeCause& heat, WarmedZero& warmed) {
+  constexpr double kColdest = 0.0, kWarmest = 45.0, kSure = 2.0;
+  warmed.found_celsius = heat.effect.setting(kReference);
+  if (heat.size == 0.0) return;
+  const double away = zero.size / heat.size;
+  warmed.unmoved_celsius = *warmed.found_celsius - away;
+  const double uncertainty = std::hypot(zero.standard_error, away * heat.standard_error) / std::abs(heat.size);
+  warmed.may_be_heat = warmed.by_model_celsius
+                           ? std::abs(*warmed.unmoved_celsius - *warmed.by_model_celsius) < kSure * uncertainty
+                           : *warmed.unmoved_celsius > kColdest && *warmed.unmoved_celsius < kWarmest;
+}
+
+}  // namespace
+
+std::vector<WarmedZero> warmed_zeros(const std::vector<ChangeCause>& found, const std::vector<ChangeCause>& tried,
+                                     const CorrectedRobot& robot) {
+  std::vector<WarmedZero> all;
+  for (const ChangeCause& zero : found) {
+    if (declared_flag(zero.effect.kind) != &DeclaredModel::joint_offset) continue;
+    WarmedZero warmed{zero.effect.joint};
+    const auto heat = std::ranges::find_if(found, [&](const ChangeCause& cause) { return warms(cause, zero); });
+    if (heat != found.end()) {
+      warmed.by_model_celsius = reference_by_model(robot, heat->effect);
+      compare(zero, *heat, warmed);
+    } else {
+      warmed.may_be_heat = std::ranges::any_of(tried, [&](const ChangeCause& cause) {
+        return is_of_heat(cause) && std::ranges::count(zero.rivals, to_string(cause.effect)) > 0;
+      });
+      if (!warmed.may_be_heat) continue;
+    }
+    all.push_back(warmed);
+  }
+  return all;
+}
+
+}  // namespace demecal::inline updating
