@@ -15,6 +15,7 @@
 
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "data/stated_radius.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
@@ -35,7 +36,7 @@ std::size_t fitted_lengths(const DataSet& data) {
   for (const MeasuredPose& pose : data.poses)
     if (pose.set == PoseSet::calibration) touched.insert(pose.contact);
   return static_cast<std::size_t>(std::ranges::count_if(data.contacts.distances, [&](const KnownDistance& known) {
-    return touched.contains(known.first) && touched.contains(known.second);
+    return !is_radius(known) && touched.contains(known.first) && touched.contains(known.second);
   }));
 }
 
@@ -64,8 +65,9 @@ std::string one_place_sentence(const DataSet& data, const CorrectedRobot& robot)
       millimetres(apart_m));
 }
 
-/// Whether poses hold the tool at a length from something: a wire's, or a sphere's known radius.
+/// Whether poses hold the tool at a length from something: a wire's, or a sphere's stated radius.
 bool shows_lengths(const DataSet& data) {
+  if (std::ranges::any_of(data.contacts.distances, is_radius)) return true;
   return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
     return pose.contact_length_m > 0.0 || data.contacts.form_of(pose.contact).radius_m.value_or(0.0) > 0.0;
   });
