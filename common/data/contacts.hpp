@@ -19,11 +19,12 @@ std::string_view to_string(ContactKind kind);
 
 struct ContactForm {
   ContactKind kind = ContactKind::point;
-  std::optional<double> radius_m;  ///< of a sphere: of the tool point from its centre; nothing: unknown
+  std::optional<double> radius_m;  ///< of a sphere: of the tool point from its centre, exactly; nothing: free
   double flatness_m = 0.0;         ///< of a plane: the distance of two planes that its surface lies between (ISO 1101)
 };
 
-/// A length between two contacts (points, or centres of spheres), from a drawing, a gauge or a calibrated bar.
+/// A length between two contacts (points, or centres of spheres), from a drawing, a gauge or a calibrated bar. Without
+/// a second one it is the radius of the first, or what is to be added to a wire's length (data/stated_radius.hpp).
 struct KnownDistance {
   std::string first, second;
   double length_m = 0.0;

@@ -1,5 +1,7 @@
 #include "data/data_set.hpp"
 
+#include "data/stated_radius.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -91,7 +93,8 @@ void take_wires_for_contacts(DataSet& data) {
       row.contact = "anchor " + std::to_string(i + 1);
       row.contact_kind = ContactKind::sphere;
       row.contact_length_m = pose.distances_m[i];
-      data.contacts.forms[row.contact] = {ContactKind::sphere, 0.0};
+      if (data.contacts.forms.try_emplace(row.contact, ContactForm{ContactKind::sphere, {}}).second)
+        data.contacts.distances.push_back({row.contact, {}, 0.0, kWireZeroDeviation_m});
       if (wires > 1) row.pose_id += " wire " + std::to_string(i + 1);
       if (i > 0) row.position_m.reset(), row.orientation.reset();
     }

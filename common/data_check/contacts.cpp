@@ -8,8 +8,10 @@
 
 #include <fmt/format.h>
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -116,7 +118,9 @@ std::vector<Finding> check_contacts(const DataSet& data) {
   if (!fit) return {};
   const double left_m = median_tool_error_m(data, fit->robot);
   if (left_m > kImplausible_m) return {of_other_robot(left_m)};
-  return find_wrong_contacts(data, fit->robot);
+  std::vector<Finding> found = find_wrong_contacts(data, fit->robot);
+  std::ranges::move(find_disagreeing_radii(data), std::back_inserter(found));
+  return found;
 }
 
 }  // namespace demecal::inline data_check

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "data/stated_radius.hpp"
 #include "data_check/searches.hpp"
 #include "effects/arm_state.hpp"
 #include "kinematics/units.hpp"
@@ -67,6 +70,13 @@ double open_m2(const PlacedContact& first, const PlacedContact& second, const Pr
          2.0 * std::pow(interval.model_error_m, 2);
 }
 
+/// Whether a radius is stated of the contact, from which the model has its scale too.
+bool is_stated_sphere(const DataSet& data, const std::string& contact) {
+  return data.contacts.form_of(contact).radius_m || std::ranges::any_of(data.contacts.distances, [&](const auto& one) {
+           return is_radius(one) && !is_wire_zero(one) && one.first == contact;
+         });
+}
+
 }  // namespace
 
 std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const CorrectedRobot& robot,
@@ -84,11 +94,14 @@ std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const Correct
         "standard uncertainty of both ({:.3f} mm). ",
         known.first, known.second, millimetres(known.length_m), millimetres(known.length_m + one.error_m),
         to_string(one.set), std::abs(one.error_m) / deviation_m, millimetres(deviation_m));
-    finding.sentence += data.contacts.distances.size() > 1
+    const auto radii = std::ranges::count_if(data.contacts.distances, is_radius);
+    finding.sentence += std::ssize(data.contacts.distances) > radii + 1
                             ? "Known lengths contradict each other, or the model's scale is wrong: check all of "
-                              "contacts.distances, and the names of the contacts."
-                            : "The length or the model's scale is wrong: check contacts.distances, and the names of "
-                              "the contacts.";
+                              "contacts.distances, "
+                            : "The length or the model's scale is wrong: check contacts.distances, ";
+    finding.sentence += is_stated_sphere(data, known.first) || is_stated_sphere(data, known.second)
+                            ? "contacts.radii_mm, and the names of the contacts."
+                            : "and the names of the contacts.";
     found.push_back(std::move(finding));
   }
   return found;

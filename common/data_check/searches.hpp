@@ -167,4 +167,8 @@ std::optional<Finding> find_computed_contacts(const DataSet& data, const Correct
 std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const CorrectedRobot& robot,
                                               const Posterior& posterior, const PredictionInterval& interval);
 
+/// Stated radii of spheres that the calibration poses, links and what else is known have otherwise by more than four
+/// times what their own uncertainty and that of such a fit without them leave open.
+std::vector<Finding> find_disagreeing_radii(const DataSet& data);
+
 }  // namespace demecal::inline data_check

@@ -1,10 +1,12 @@
 #include "data/columns.hpp"
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "data/stated_radius.hpp"
 #include "data_files/data_set_file.hpp"
 #include "yaml/yaml_node.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <ranges>
@@ -24,6 +26,8 @@ namespace {
 
 constexpr const char* kContactKinds = "kinds";
 constexpr const char* kRadii = "radii_mm";
+constexpr const char* kRadiiSigma = "radii_sigma_mm";
+constexpr double kUnstated = -1.0;  ///< the uncertainty of a radius, while it is read
 constexpr const char* kFlatness = "flatness_mm";
 constexpr const char* kDistances = "distances";
 constexpr const char* kParallel = "parallel";
@@ -50,7 +54,7 @@ class ContactsReader {
   explicit ContactsReader(DataSet& data) : data_(data), names_(contact_names(data)) {}
 
   void read(const YamlNode& node) {
-    node.with_keys({kContactKinds, kRadii, kFlatness, kDistances, kParallel, kSquare});
+    node.with_keys({kContactKinds, kRadii, kRadiiSigma, kFlatness, kDistances, kParallel, kSquare});
     for (const YamlNode& kind : named_values(node.find(kContactKinds))) {
       require_contact(kind, kind.name);
       if (data_.contacts.forms.contains(kind.name))
@@ -61,8 +65,10 @@ class ContactsReader {
       require_contact(radius, radius.name);
       if (data_.contacts.form_of(radius.name).kind != ContactKind::sphere)
         radius.fail(radius.name, "is no sphere: only spheres have a radius");
-      data_.contacts.forms[radius.name].radius_m = metres(radius.positive());
+      data_.contacts.distances.push_back({radius.name, {}, metres(radius.positive()), kUnstated});
     }
+    for (const YamlNode& sigma : named_values(node.find(kRadiiSigma))) read_sigma(sigma);
+    believe_one_tip();
     for (const YamlNode& flatness : named_values(node.find(kFlatness))) {
       require_contact(flatness, flatness.name);
       if (data_.contacts.form_of(flatness.name).kind != ContactKind::plane)
@@ -95,6 +101,29 @@ class ContactsReader {
     if (node == nullptr) return {};
     if (node->kind != YamlNode::Kind::map) node->fail("must be a map of contacts");
     return node->children;
+  }
+
+  /// Radii of which no uncertainty is stated are wrong together, by the tip that touches them all: each is believed so
+  /// much less that together they are believed as one would be.
+  void believe_one_tip() {
+    std::vector<KnownDistance*> unstated;
+    for (KnownDistance& known : data_.contacts.distances)
+      if (is_radius(known) && known.sigma_m == kUnstated) unstated.push_back(&known);
+    for (KnownDistance* known : unstated)
+      known->sigma_m = kRadiusDeviation_m * std::sqrt(static_cast<double>(unstated.size()));
+  }
+
+  /// The standard uncertainty of a radius, or of a wire's zero.
+  void read_sigma(const YamlNode& sigma) {
+    require_contact(sigma, sigma.name);
+    KnownDistance* const known = stated_radius(data_.contacts, sigma.name);
+    if (known == nullptr)
+      sigma.fail(sigma.name, "has no radius under contacts.radii_mm that this could be the uncertainty of");
+    known->sigma_m = metres(sigma.non_negative());
+    if (known->sigma_m > 0.0) return;
+    data_.contacts.forms[sigma.name].radius_m = known->length_m;
+    std::erase_if(data_.contacts.distances,
+                  [&](const KnownDistance& one) { return is_radius(one) && one.first == sigma.name; });
   }
 
   std::pair<std::string, std::string> read_pair(const YamlNode& node) const {
@@ -170,23 +199,36 @@ void read_contacts(const YamlNode* node, const ColumnMap& columns, DataSet& data
 }
 
 std::string contacts_text(const Contacts& contacts) {
-  std::string kinds, radii, flatness;
+  const auto entry = [](const std::string& name, double length_m) {
+    return "    " + yaml_text(name) + ": " + number_text(length_m, millimetres, metres) + "\n";
+  };
+  std::string kinds, radii, sigmas, flatness;
+  std::set<std::string> wires;  // their columns say what they are
+  for (const KnownDistance& one : contacts.distances) {
+    if (!is_radius(one)) continue;
+    if (is_wire_zero(one)) wires.insert(one.first);
+    if (!is_wire_zero(one)) radii += entry(one.first, one.length_m);
+    if (!is_wire_zero(one) || one.sigma_m != kWireZeroDeviation_m) sigmas += entry(one.first, one.sigma_m);
+  }
   for (const auto& [name, form] : contacts.forms) {
-    if (form.radius_m == 0.0) continue;  // a wire's end, which its column says
+    if (form.radius_m) sigmas += entry(name, 0.0);
+    if (form.radius_m == 0.0 || wires.contains(name)) continue;
     kinds += "    " + yaml_text(name) + ": " + std::string(to_string(form.kind)) + "\n";
-    if (form.radius_m)
-      radii += "    " + yaml_text(name) + ": " + number_text(*form.radius_m, millimetres, metres) + "\n";
-    if (form.flatness_m > 0.0)
-      flatness += "    " + yaml_text(name) + ": " + number_text(form.flatness_m, millimetres, metres) + "\n";
+    if (form.radius_m) radii += entry(name, *form.radius_m);
+    if (form.flatness_m > 0.0) flatness += entry(name, form.flatness_m);
   }
   std::string text;
   if (!kinds.empty()) text += std::string("  ") + kContactKinds + ":\n" + kinds;
   if (!radii.empty()) text += std::string("  ") + kRadii + ":\n" + radii;
+  if (!sigmas.empty()) text += std::string("  ") + kRadiiSigma + ":\n" + sigmas;
   if (!flatness.empty()) text += std::string("  ") + kFlatness + ":\n" + flatness;
-  if (!contacts.distances.empty()) text += std::string("  ") + kDistances + ":\n";
+  std::string distances;
   for (const KnownDistance& one : contacts.distances)
-    text += "    - " + pair_text(one.first, one.second) + "mm: " + number_text(one.length_m, millimetres, metres) +
-            ", sigma_mm: " + number_text(one.sigma_m, millimetres, metres) + "}\n";
+    if (!is_radius(one))
+      distances += "    - " + pair_text(one.first, one.second) +
+                   "mm: " + number_text(one.length_m, millimetres, metres) +
+                   ", sigma_mm: " + number_text(one.sigma_m, millimetres, metres) + "}\n";
+  if (!distances.empty()) text += std::string("  ") + kDistances + ":\n" + distances;
   text += angles_text(contacts, false) + angles_text(contacts, true);
   return text.empty() ? text : "contacts:\n" + text;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "data/contacts.hpp"
+#include "data/stated_radius.hpp"
 #include "effects/arm_state.hpp"
 #include "parameters/declared_model.hpp"
 #include "pieces/pieces.hpp"
@@ -147,6 +148,7 @@ class RelationCollector {
   }
 
   void add(const KnownDistance& known) {
+    if (is_radius(known)) return add_radius(known);
     const std::vector<PoseSet> sets = sets_with(known.first, known.second);
     for (const PoseSet set : sets) {
       const double sigma = known.sigma_m * std::sqrt(static_cast<double>(sets.size()));
@@ -187,6 +189,17 @@ class RelationCollector {
   }
 
  private:
+  void add_radius(const KnownDistance& known) {
+    std::vector<PoseSet> sets;
+    for (const auto& [group, columns] : columns_)
+      if (group.contact == known.first && columns.contains(kRadiusMotion)) sets.push_back(group.set);
+    for (const PoseSet set : sets) {
+      const double sigma = known.sigma_m * std::sqrt(static_cast<double>(sets.size()));
+      push((known.length_m - place(known.first, set).radius_m) / sigma,
+           -Eigen::VectorXd::Unit(space_.size(), columns_.at({known.first, set}).at(kRadiusMotion)) / sigma);
+    }
+  }
+
   std::vector<PoseSet> sets_with(const std::string& first, const std::string& second) const {
     std::vector<PoseSet> sets;
     for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept})

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -35,8 +36,8 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& direction) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction).toRotationMatrix();
 }
 
-/// Centre and radius of the sphere through points, linear in x^2 - l^2 = 2 c x + (r^2 - c^2), l a wire's length; few
-/// points give the smallest.
+/// Centre and radius of the sphere through points, linear in x^2 - l^2 = 2 c x + (r^2 - c^2), l a wire's length, whose
+/// zero is taken to be right; few points give the smallest.
 void fit_sphere(const Touches& touches, ContactPlace& place) {
   const Eigen::Vector3d middle = place.frame.translation();
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(touches.size()), 4);
@@ -49,7 +50,9 @@ void fit_sphere(const Touches& touches, ContactPlace& place) {
   }
   const Eigen::Vector4d found = least_norm_solution(rows, squares);
   place.frame.translation() = middle + found.head<3>();
-  if (!place.is_radius_known) place.radius_m = std::sqrt(std::max(found[3] + found.head<3>().squaredNorm(), 0.0));
+  const bool of_wire = std::ranges::any_of(touches, [](const Touch& touch) { return touch.length_m > 0.0; });
+  if (!place.is_radius_known && !of_wire)
+    place.radius_m = std::sqrt(std::max(found[3] + found.head<3>().squaredNorm(), 0.0));
 }
 
 /// Gauss and Newton's steps from a place nearby.

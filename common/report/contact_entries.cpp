@@ -15,6 +15,7 @@
 
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "data/stated_radius.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
@@ -35,7 +36,7 @@ std::size_t fitted_lengths(const DataSet& data) {
   for (const MeasuredPose& pose : data.poses)
     if (pose.set == PoseSet::calibration) touched.insert(pose.contact);
   return static_cast<std::size_t>(std::ranges::count_if(data.contacts.distances, [&](const KnownDistance& known) {
-    return touched.contains(known.first) && touched.contains(known.second);
+    return !is_radius(known) && touched.contains(known.first) && touched.contains(known.second);
   }));
 }
 
@@ -47,13 +48,20 @@ std::vector<Eigen::Vector3d> touched_places_m(const DataSet& data, const Correct
   return places_m;
 }
 
+/// Whether nothing was measured, and calibration poses touch one contact and no other.
+bool touches_one_contact_alone(const DataSet& data) {
+  const auto groups = contact_groups(data, poses_of(data, PoseSet::calibration));
+  return groups.size() == 1 && !has_instrument(data);
+}
+
 /// What calibration at one place cannot see; empty where there are several.
 std::string one_place_sentence(const DataSet& data, const CorrectedRobot& robot) {
   constexpr double kOnePlace_m = 0.2;
   const std::vector<Eigen::Vector3d> places_m = touched_places_m(data, robot);
   if (places_m.size() == 1)
     return "All calibration poses touch one contact: what moves all of them together is not seen, such as an error of "
-           "the first joint that depends on its angle alone. A second contact elsewhere would show it.";
+           "the first joint that depends on its angle alone. No error over the workspace is predicted from one contact "
+           "alone. A second contact elsewhere would show it.";
   double apart_m = 0.0;
   for (const Eigen::Vector3d& one_m : places_m)
     for (const Eigen::Vector3d& other_m : places_m) apart_m = std::max(apart_m, (one_m - other_m).norm());
@@ -64,8 +72,27 @@ std::string one_place_sentence(const DataSet& data, const CorrectedRobot& robot)
       millimetres(apart_m));
 }
 
-/// Whether poses hold the tool at a length from something: a wire's, or a sphere's known radius.
+/// Wires whose lengths the calibration poses find too long or too short; empty where none is by far.
+std::string wire_zeros_sentence(const DataSet& data, const CorrectedRobot& robot) {
+  constexpr double kNotable_m = 1e-3;
+  constexpr std::size_t kTelling = 20;  ///< lengths of a wire that tell its zero
+  const CorrectedRobot placed = with_own_contacts(robot, data);
+  std::string wires;
+  for (const auto& [group, poses] : contact_groups(data, poses_of(data, PoseSet::calibration))) {
+    if (poses.size() < kTelling || !(data.poses[poses.front()].contact_length_m > 0.0)) continue;
+    const double too_long_m = -placed.contacts.at(group).radius_m;
+    if (std::abs(too_long_m) < kNotable_m) continue;
+    wires += fmt::format("{}'{}' {:.1f} mm too {}", wires.empty() ? "" : ", ", group.contact,
+                         millimetres(std::abs(too_long_m)), too_long_m > 0.0 ? "long" : "short");
+  }
+  if (wires.empty()) return {};
+  return "Wires read, by all poses together: " + wires +
+         ". The model allows for it; set their zeros before others use them.";
+}
+
+/// Whether poses hold the tool at a length from something: a wire's, or a sphere's stated radius.
 bool shows_lengths(const DataSet& data) {
+  if (std::ranges::any_of(data.contacts.distances, is_radius)) return true;
   return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
     return pose.contact_length_m > 0.0 || data.contacts.form_of(pose.contact).radius_m.value_or(0.0) > 0.0;
   });
@@ -90,6 +117,14 @@ std::string unfitted_lengths_sentence(const std::vector<LengthErrorEntry>& lengt
 }
 
 }  // namespace
+
+std::optional<WorkspaceEntry> without_figures_of_one_contact(std::optional<WorkspaceEntry> error, const DataSet& data) {
+  if (error && touches_one_contact_alone(data)) {
+    error->rms_mm.reset();
+    error->p95_mm.reset();
+  }
+  return error;
+}
 
 std::vector<LengthErrorEntry> length_error_entries(const DataSet& data, const CorrectedRobot& robot,
                                                    const CorrectedRobot* before) {
@@ -130,6 +165,8 @@ std::vector<std::string> contact_notes(const DataSet& data, const CorrectedRobot
     notes.push_back(std::move(sentence));
   if (!has_instrument(data)) {
     if (std::string sentence = one_place_sentence(data, robot); !sentence.empty()) notes.push_back(std::move(sentence));
+    if (std::string sentence = wire_zeros_sentence(data, robot); !sentence.empty())
+      notes.push_back(std::move(sentence));
     if (fitted_lengths(data) == 0 && !shows_lengths(data))
       notes.emplace_back(
           "No length between contacts is known: the scale of the arm is not measured and stays the description's. Two "

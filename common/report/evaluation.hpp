@@ -77,6 +77,9 @@ PredictionEntry prediction_entry(const PredictionInterval& interval);
 
 /// Nothing where the model does not state how sure it is. `placed`: its poses told where the arm stands.
 std::optional<WorkspaceEntry> workspace_entry(const CalibratedModel& model, bool placed);
+/// The same without figures where the calibration poses of `data` touch one contact alone: what they see of the arm is
+/// seen at one place, and the rest, which is believed of its links, was never held against anything.
+std::optional<WorkspaceEntry> without_figures_of_one_contact(std::optional<WorkspaceEntry> error, const DataSet& data);
 /// "0.21 mm rms, 0.4 mm for 95 % ...": the same for people.
 std::string workspace_sentence(const WorkspaceEntry& error);
 

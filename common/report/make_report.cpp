@@ -238,7 +238,7 @@ Report make_report(const Conclusions& run) {
         "; the poses follow each other along a path: at poses far from it the intervals may be too narrow, although "
         "every "
         "joint was measured there";
-  report.workspace_error = workspace_entry(model, has_instrument(data));
+  report.workspace_error = without_figures_of_one_contact(workspace_entry(model, has_instrument(data)), data);
   report.noise_floor_mm = noise_floor_mm(data);
   set_loop(run.loop, model.nominal, report);
   set_causes(run.calibration.budget, model.robot, model.nominal, report);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "../errors/complaint.hpp"
+#include "data/stated_radius.hpp"
 #include "data_files/data_set_file.hpp"
 #include "kinematics/forward.hpp"
 #include "prediction/measurement.hpp"
@@ -58,19 +59,37 @@ TEST_F(ContactFiles, AreReadAndWrittenBack) {
   EXPECT_EQ(data.poses[2].contact_kind, ContactKind::plane);
   EXPECT_EQ(rows_of(data.poses[0]).total(), 3);
   EXPECT_EQ(rows_of(data.poses[2]).total(), 1);
-  EXPECT_DOUBLE_EQ(*data.contacts.form_of("ball").radius_m, 0.0127);
-  ASSERT_EQ(data.contacts.distances.size(), 1u);
-  EXPECT_DOUBLE_EQ(data.contacts.distances[0].length_m, 0.05);
-  EXPECT_DOUBLE_EQ(data.contacts.distances[0].sigma_m, 5e-5);
+  ASSERT_EQ(data.contacts.distances.size(), 2u);
+  EXPECT_DOUBLE_EQ(data.contacts.distances[1].length_m, 0.05);
+  EXPECT_DOUBLE_EQ(data.contacts.distances[1].sigma_m, 5e-5);
   const TemporaryFolder written;
   const DataSet back = load_data_set(write_data_set(data, written.path(), "again"));
   EXPECT_EQ(back.poses[3].contact, "ball");
   EXPECT_EQ(back.poses[3].contact_kind, ContactKind::sphere);
-  EXPECT_NEAR(*back.contacts.form_of("ball").radius_m, 0.0127, 1e-15);
-  EXPECT_EQ(back.contacts.distances[0].second, "ball");
+  EXPECT_EQ(back.contacts.distances[1].second, "ball");
   EXPECT_NEAR(back.contacts.form_of("plate").flatness_m, 2e-4, 1e-15);
   EXPECT_DOUBLE_EQ(back.poses[2].contact_weight, data.poses[2].contact_weight);
   EXPECT_LT(data.poses[2].contact_weight, data.poses[0].contact_weight);
+}
+
+TEST_F(ContactFiles, RadiiAreKnownAsWellAsIsStated) {
+  const std::string radius = "contacts:\n  kinds: {ball: sphere}\n  radii_mm: {ball: 12.7}\n";
+  for (const auto& [stated, sigma_m] : std::map<std::string, double>{{"", kRadiusDeviation_m},
+                                                                     {"  radii_sigma_mm: {ball: 0.01}\n", 1e-5},
+                                                                     {"  radii_sigma_mm: {ball: 0}\n", 0.0}}) {
+    DataSet data = load(radius + stated);
+    for (int times = 0; times < 2; ++times) {
+      const KnownDistance* const known = stated_radius(data.contacts, "ball");
+      ASSERT_EQ(known == nullptr, sigma_m == 0.0) << stated;
+      EXPECT_EQ(data.contacts.form_of("ball").radius_m.has_value(), sigma_m == 0.0) << "free where it is not exact";
+      EXPECT_NEAR(known ? known->length_m : *data.contacts.form_of("ball").radius_m, 0.0127, 1e-15);
+      EXPECT_NEAR(known ? known->sigma_m : 0.0, sigma_m, 1e-15);
+      const TemporaryFolder written;
+      data = load_data_set(write_data_set(data, written.path(), "again"));
+    }
+  }
+  EXPECT_THAT(complaint([&] { load("contacts: {radii_sigma_mm: {a: 0.1}}\n"); }), HasSubstr("has no radius"));
+  EXPECT_THAT(complaint([&] { load(radius + "  radii_sigma_mm: {ball: -1}\n"); }), HasSubstr("-1"));
 }
 
 TEST_F(ContactFiles, ThatNoPoseTouchesAreRefused) {
@@ -120,7 +139,11 @@ TEST_F(ContactFiles, WiresFromUnknownAnchorsAreContactsEachInARowOfItsOwn) {
   EXPECT_EQ(data.poses[1].pose_id, "P1 wire 2");
   EXPECT_DOUBLE_EQ(data.poses[1].contact_length_m, 0.8);
   EXPECT_EQ(data.poses[0].set, data.poses[1].set);
-  EXPECT_EQ(data.contacts.distances.size(), 1u);
+  EXPECT_EQ(data.contacts.distances.size(), 3u);
+  DataSet zeroed =
+      load_data_set(folder_.write("dataset.yaml", text + "contacts: {radii_sigma_mm: {anchor 1: 0.2, anchor 2: 0}}\n"));
+  EXPECT_DOUBLE_EQ(stated_radius(zeroed.contacts, "anchor 1")->sigma_m, 2e-4);
+  EXPECT_EQ(zeroed.contacts.form_of("anchor 2").radius_m, 0.0) << "its length is exact";
   EXPECT_THAT(
       complaint([&] { load_data_set(folder_.write("dataset.yaml", text + "contacts: {kinds: {anchor 1: plane}}\n")); }),
       HasSubstr("is where a wire ends"));

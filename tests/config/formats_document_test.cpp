@@ -157,6 +157,7 @@ TEST(FormatsDocument, HasTheKeysOfDataSets) {
                   .open_maps = {{"tools_mm", "TARGET"},
                                 {"contacts.kinds", "CONTACT"},
                                 {"contacts.radii_mm", "CONTACT"},
+                                {"contacts.radii_sigma_mm", "CONTACT"},
                                 {"contacts.flatness_mm", "CONTACT"}}});
 }
 

@@ -1,6 +1,7 @@
 // Arms that touch contacts: the joints at which the true robot stands there.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "fitting/known_arm.hpp"
@@ -42,6 +43,18 @@ inline void touch(KnownArm& arm, RandomStream& stream, const std::string& contac
     arm.data.poses.push_back(pose);
     ++added;
   }
+}
+
+/// The same of a ball, all round its upper half: of unknown radius to the data.
+inline void touch_ball(KnownArm& arm, RandomStream& stream, const std::string& ball, const Eigen::Vector3d& centre_m,
+                       double radius_m, int count, double play_m, PoseSet set = PoseSet::calibration) {
+  for (int i = 0; i < count; ++i) {
+    Eigen::Vector3d out = random_vector(stream, 1.0).normalized();
+    out.z() = std::abs(out.z());
+    touch(arm, stream, ball, centre_m + radius_m * out, 1, play_m, set);
+    arm.data.poses.back().contact_kind = ContactKind::sphere;
+  }
+  arm.data.contacts.forms[ball] = {ContactKind::sphere, {}};
 }
 
 }  // namespace demecal

@@ -171,5 +171,39 @@ TEST(ContactNotes, SayWhereEverythingWasTouchedAtOnePlace) {
   EXPECT_THAT(notes(apart), AllOf(Not(HasSubstr("touch one contact")), Not(HasSubstr("judged at one place"))));
 }
 
+TEST(ContactNotes, NameWiresWhoseZeroIsElsewhere) {
+  RandomStream random{82};
+  std::vector<std::pair<std::string, JointVector>> pulls;
+  for (int i = 0; i < 40; ++i)
+    pulls.emplace_back("wire", JointVector::NullaryExpr(6, [&] { return random.real(-1.0, 1.0); }));
+  DataSet data = touching(pulls);
+  data.contacts.forms["wire"] = {ContactKind::sphere, {}};
+  for (const double off_m : {2e-4, -4e-3}) {
+    for (MeasuredPose& pose : data.poses) {
+      pose.contact_kind = ContactKind::sphere;
+      pose.contact_length_m =
+          (touch_of(nominal_robot(data), pose).point_m - Eigen::Vector3d(3.0, 1.0, 2.0)).norm() + off_m;
+    }
+    std::string all;
+    for (const std::string& note : contact_notes(data, nominal_robot(data), {}, {})) all += note + '\n';
+    EXPECT_EQ(all.find("'wire' 4.0 mm too short") != std::string::npos, off_m == -4e-3) << all;
+    EXPECT_EQ(all.find("Wires read") != std::string::npos, off_m == -4e-3) << all;
+  }
+}
+
+TEST(WorkspaceError, HasNoFiguresWhereOneContactAloneWasTouched) {
+  const JointVector here = JointVector::Constant(6, 0.3), there = JointVector::Constant(6, -0.9);
+  const WorkspaceEntry figures{0.1, 0.2, true};
+  const auto of_one = without_figures_of_one_contact(figures, touching({{"a", here}, {"a", there}}));
+  ASSERT_TRUE(of_one);
+  EXPECT_FALSE(of_one->rms_mm || of_one->p95_mm);
+  EXPECT_TRUE(of_one->beside_base) << "the stages are named by it";
+  EXPECT_TRUE(workspace_sentence(*of_one).empty());
+  EXPECT_EQ(without_figures_of_one_contact(figures, touching({{"a", here}, {"b", there}}))->rms_mm, 0.1);
+  DataSet measured = touching({{"a", here}, {"a", there}});
+  measured.poses.front().position_m = Eigen::Vector3d::Zero();
+  EXPECT_EQ(without_figures_of_one_contact(figures, measured)->rms_mm, 0.1);
+}
+
 }  // namespace
 }  // namespace demecal
