@@ -14,11 +14,11 @@ namespace {
 
 // Along what the poses do not show at all, as wide as undetermined numbers of a model: tools by a hundredth, bases by
 // what a person could not overlook.
-constexpr double kToolDeviation_m = 0.01, kToolDeviation_rad = 0.1, kBaseDeviation = 1.0;
+constexpr double kToolBefore_m = 0.01, kToolBefore_rad = 0.1, kBaseBefore = 1.0;
 
 double deviation_before(const ParameterId& id) {
-  if (id.is_of_base()) return kBaseDeviation;
-  return id.kind == ParameterId::Kind::tool_translation ? kToolDeviation_m : kToolDeviation_rad;
+  if (id.is_of_base()) return kBaseBefore;
+  return id.kind == ParameterId::Kind::tool_translation ? kToolBefore_m : kToolBefore_rad;
 }
 
 /// Of a pose's measured point and distances: how they move with each number of `unit`, over their standard deviations.

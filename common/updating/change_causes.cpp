@@ -68,7 +68,7 @@ std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& columns) {
 
 /// Whether a move of the tool does to these poses what a joint's zero does: that of the last joint turns the tool
 /// alone.
-bool holds(const Effect& tool, const Effect& zero, const ChangeRows& rows, const CauseTrial& trial) {
+bool makes_up_for(const Effect& tool, const Effect& zero, const ChangeRows& rows, const CauseTrial& trial) {
   constexpr double kNothing = 1e-3;
   if (law_of(tool).subject() != Subject::tool || declared_flag(zero.kind) != &DeclaredModel::joint_offset) return false;
   const Eigen::MatrixXd basis = PivotedQr(rows.columns[place_of(tool, trial.effects)]).basis();
@@ -110,7 +110,8 @@ std::vector<ChangeCause> tested_causes(const ChangeRows& rows, const CauseTrial&
     ChangeCause& cause = scored[i].cause;
     cause.p_family = 1.0 - std::pow(1.0 - cause.p_value, static_cast<double>(scored.size()));
     for (std::size_t k = 1; i == 0 && k < scored.size(); ++k)
-      if (scored[k].length - scored[0].length < kAsLikely || holds(scored[k].cause.effect, cause.effect, rows, trial))
+      if (scored[k].length - scored[0].length < kAsLikely ||
+          makes_up_for(scored[k].cause.effect, cause.effect, rows, trial))
         cause.rivals.push_back(to_string(scored[k].cause.effect));
     causes.push_back(std::move(cause));
   }

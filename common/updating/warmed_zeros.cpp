@@ -29,7 +29,7 @@ std::optional<double> reference_by_model(const CorrectedRobot& robot, const Effe
 }
 
 /// Where heat by itself does what was found, the zero is as it was at the temperature of the model, or of some hall.
-void compare(const ChangeCause& zero, const ChangeCause& heat, WarmedZero& warmed) {
+void compare_with_heat(const ChangeCause& zero, const ChangeCause& heat, WarmedZero& warmed) {
   constexpr double kColdest = 0.0, kWarmest = 45.0, kSure = 2.0;
   warmed.found_celsius = heat.effect.setting(kReference);
   if (heat.size == 0.0) return;
@@ -52,7 +52,7 @@ std::vector<WarmedZero> warmed_zeros(const std::vector<ChangeCause>& found, cons
     const auto heat = std::ranges::find_if(found, [&](const ChangeCause& cause) { return warms(cause, zero); });
     if (heat != found.end()) {
       warmed.by_model_celsius = reference_by_model(robot, heat->effect);
-      compare(zero, *heat, warmed);
+      compare_with_heat(zero, *heat, warmed);
     } else {
       warmed.may_be_heat = std::ranges::any_of(tried, [&](const ChangeCause& cause) {
         return is_of_heat(cause) && std::ranges::count(zero.rivals, to_string(cause.effect)) > 0;
