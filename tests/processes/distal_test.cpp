@@ -52,7 +52,7 @@ bool await_runs(const SmallJob& job, const std::string& out, std::size_t runs) {
 }
 
 TEST(Distal, RoundsAreBredByTheSameTwoProcessesWhichLeaveInTheEnd) {
-  const SmallJob job(40);
+  const SmallJob job(400);  // longer than a second process takes to come
   ASSERT_EQ(run("demecal", learn_distally(job, "two", 2)).code, 0);
   const Recorded two = recorded(job, "two");
   EXPECT_GT(two.runs.size(), 2U);

@@ -156,6 +156,7 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   ASSERT_EQ(calibrated.code, 0) << calibrated.err;
   ASSERT_TRUE(monitor.wait_for_out("\"finished\""));
   ASSERT_TRUE(reader.wait_for_out("rt/demecal/loop\t")) << reader.out_so_far();
+  reader.signal(SIGTERM);
   const Ended read = reader.wait(std::chrono::seconds(100));
   ASSERT_EQ(read.code, 0);
   monitor.signal(SIGINT);

@@ -1,14 +1,19 @@
 #include "program.hpp"
 
 #include <fcntl.h>
+#include <gtest/gtest.h>
 #include <sched.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <map>
+#include <mutex>
 #include <thread>
 
 namespace demecal {
@@ -25,6 +30,15 @@ std::string scratch_file() {
   char name[] = "/tmp/demecal-test-XXXXXX";
   ::close(::mkstemp(name));
   return name;
+}
+
+/// Holds the domain until this process ends: tests beside one another claim theirs by locks on files.
+bool claim(int domain) {
+  const std::string lock = "/tmp/demecal-test-domain-" + std::to_string(domain);
+  const int file = ::open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+  if (file >= 0 && ::flock(file, LOCK_EX | LOCK_NB) == 0) return true;
+  if (file >= 0) ::close(file);
+  return false;
 }
 
 [[noreturn]] void become(const std::string& path, std::vector<char*>& arguments, pid_t network, const std::string& out,
@@ -51,6 +65,7 @@ StartedProgram::StartedProgram(const std::string& name, const std::vector<std::s
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  [[maybe_unused]] static const int kSet = ::setenv("DEMECAL_DOMAIN", private_domain().c_str(), 0);
   process_ = ::fork();
   if (process_ == 0) become(path, pointers, network, out_path_, err_path_);
 }
@@ -124,7 +139,19 @@ Ended run(const std::string& name, const std::vector<std::string>& arguments) {
 }
 
 std::string private_domain(int which) {
-  return std::to_string(1 + (::getpid() + 29 * which) % 200);
+  static std::mutex one_at_a_time;
+  static std::map<int, int> claimed;
+  const std::lock_guard lock(one_at_a_time);
+  if (const auto known = claimed.find(which); known != claimed.end()) return std::to_string(known->second);
+  constexpr int kDomains = 200;
+  for (int i = 0; i < kDomains; ++i) {
+    const int domain = 1 + (::getpid() + 29 * which + i) % kDomains;
+    if (!claim(domain)) continue;
+    claimed[which] = domain;
+    return std::to_string(domain);
+  }
+  ADD_FAILURE() << "no DDS domain is free";
+  return "0";
 }
 
 }  // namespace demecal
