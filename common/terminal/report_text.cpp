@@ -245,7 +245,8 @@ std::string to_terminal(const Evaluation& evaluation) {
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
                         *evaluation.uncertainty->expanded_mm);
   }
-  text += workspace(evaluation.workspace_error);
+  text += evaluation.of_one_contact ? wrapped("  workspace:", one_contact_sentence(), 4)
+                                    : workspace(evaluation.workspace_error);
   return text;
 }
 

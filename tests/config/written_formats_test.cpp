@@ -107,6 +107,7 @@ TEST(WrittenFormats, EvaluationHasTheKeysOfThePage) {
   evaluation.uncertainty = kMadeUpUncertainty;
   evaluation.length_errors = report.length_errors;
   evaluation.touches = true;
+  evaluation.orientations_judged = false;
   expect_json("evaluate --json", {to_json(evaluation)});
 }
 
