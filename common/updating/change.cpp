@@ -18,13 +18,11 @@
 #include "random/distributions.hpp"
 #include "updating/change_causes.hpp"
 #include "updating/change_rows.hpp"
+#include "updating/changed_zeros.hpp"
 #include "updating/expected_noise.hpp"
 #include "updating/joint_rounding.hpp"
-#include "updating/orientation_noise.hpp"
 #include "updating/repeats.hpp"
-#include "updating/unseen_zeros.hpp"
 #include "updating/unstated.hpp"
-#include "updating/warmed_zeros.hpp"
 
 namespace demecal::inline updating {
 namespace {
