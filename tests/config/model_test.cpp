@@ -77,9 +77,6 @@ TEST(ModelFile, KeepsHowTheModelWasFound) {
     model.method = method;
     EXPECT_EQ(written_and_read(model).method, method) << to_string(method);
   }
-  EXPECT_FALSE(written_and_read(model).of_one_contact);
-  model.of_one_contact = true;
-  EXPECT_TRUE(written_and_read(model).of_one_contact);
   model.data_findings = {"wrong_length", "outlier"};
   EXPECT_EQ(written_and_read(model).data_findings, model.data_findings);
 }
