@@ -82,6 +82,8 @@ class ChangeSearch {
     report_.lacking = unstated_sentences(robot_, data_, poses_, rows.unstated_m, report_.noise_m);
     const double chance_of_left = judge(rows);
     if (report_.verdict == ChangeVerdict::changed && chance_of_left < kChanceOfNoise) judge_as_rounded();
+    if (std::string heat = unseen_heat_sentence(report_.found, robot_, data_, poses_); !heat.empty())
+      report_.not_testable.insert(report_.not_testable.begin(), std::move(heat));
     for (std::size_t& pose : report_.outliers) pose = distinct_.measured[pose];
     return std::move(report_);
   }

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "diagnosis/candidates.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "parameters/declared_model.hpp"
 
@@ -89,6 +90,19 @@ std::vector<WarmedZero> warmed_zeros(const std::vector<ChangeCause>& found, cons
     all.push_back(warmed);
   }
   return all;
+}
+
+std::string unseen_heat_sentence(const std::vector<ChangeCause>& found, const CorrectedRobot& robot,
+                                 const DataSet& data, const std::vector<std::size_t>& poses) {
+  const bool zeros = std::ranges::any_of(
+      found, [](const ChangeCause& cause) { return declared_flag(cause.effect.kind) == &DeclaredModel::joint_offset; });
+  const bool warms = std::ranges::any_of(
+      robot.effects, [](const Effect& effect) { return law_of(effect).prerequisite() == Circumstance::temperature; });
+  if (!zeros || !warms || evidence_of(data, poses).temperature) return {};
+  const bool stated =
+      std::ranges::all_of(poses, [&](std::size_t pose) { return data.poses[pose].temperature_celsius.has_value(); });
+  return fmt::format("{}: heat cannot be told apart from the zeros that were found.",
+                     stated ? "The temperature is the same at all poses" : "The temperature was not recorded");
 }
 
 }  // namespace demecal::inline updating
