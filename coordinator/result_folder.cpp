@@ -27,6 +27,7 @@
 #include "html/page.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
+#include "report/evaluation.hpp"
 #include "report/history.hpp"
 #include "report/make_report.hpp"
 #include "trials/finding.hpp"
@@ -156,6 +157,7 @@ Report write_results(const std::string& folder, const DataSet& data, const Calib
   remove_earlier_results(folder, result_files(method));
   const auto with_findings = [&](CalibratedModel model) {
     model.data_findings = result.check.kinds();
+    model.of_one_contact = touches_one_contact_alone(data);
     return model_text(model);
   };
   write_result(folder, "model.yaml", with_findings(result.model));

@@ -68,6 +68,7 @@ struct CalibratedModel {
   std::string data_name;
   std::string data_sha256;
   std::vector<std::string> data_findings{};  ///< kinds of findings of the data check; none in models of old versions
+  bool of_one_contact = false;               ///< nothing was measured, and all calibration poses touch one contact
   bool approach_recorded = true;  ///< the data state the sides that joints came from; true in models of old versions
   std::uint64_t seed = 0;
   std::string version;

@@ -204,6 +204,7 @@ std::string model_text(const CalibratedModel& model) {
        << "\nmethod: " << to_string(model.method) << "\nseed: " << model.seed
        << "\ndata: {name: " << yaml_text(model.data_name) << ", sha256: " << yaml_text(model.data_sha256)
        << (model.approach_recorded ? "" : ", approach_recorded: false")
+       << (model.of_one_contact ? ", one_contact: true" : "")
        << (model.data_findings.empty() ? "" : ", findings: " + yaml_list(model.data_findings)) << "}\n";
   text << "robot:\n" << robot_text(model.nominal, 2);
   text << "declared: " << yaml_list(model.declared.words()) << '\n';
@@ -263,10 +264,11 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
                                                    {"diagnose", Method::diagnose},
                                                    {"structural", Method::structural}});
   model.seed = file.at("seed").seed();
-  const YamlNode& data = file.at("data").with_keys({"name", "sha256", "approach_recorded", "findings"});
+  const YamlNode& data = file.at("data").with_keys({"name", "sha256", "approach_recorded", "one_contact", "findings"});
   model.data_name = data.at("name").text();
   model.data_sha256 = data.at("sha256").text();
   if (const YamlNode* recorded = data.find("approach_recorded")) model.approach_recorded = recorded->boolean();
+  if (const YamlNode* one_contact = data.find("one_contact")) model.of_one_contact = one_contact->boolean();
   if (const YamlNode* findings = data.find("findings"))
     for (const YamlNode& kind : findings->list()) model.data_findings.push_back(kind.text());
   model.nominal = read_robot(file.at("robot"));

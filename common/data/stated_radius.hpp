@@ -23,8 +23,8 @@ inline bool is_wire_zero(const KnownDistance& known) {
   return is_radius(known) && known.length_m == 0.0;
 }
 
-/// Null where the radius is unknown or exact.
-inline KnownDistance* stated_radius(Contacts& contacts, const std::string& contact) {
+/// Null where the radius is unknown or exact. Of contacts that are const, a pointer to const.
+inline auto* stated_radius(auto& contacts, const std::string& contact) {
   const auto own = std::ranges::find_if(
       contacts.distances, [&](const KnownDistance& known) { return is_radius(known) && known.first == contact; });
   return own == contacts.distances.end() ? nullptr : &*own;

@@ -72,9 +72,8 @@ double open_m2(const PlacedContact& first, const PlacedContact& second, const Pr
 
 /// Whether a radius is stated of the contact, from which the model has its scale too.
 bool is_stated_sphere(const DataSet& data, const std::string& contact) {
-  return data.contacts.form_of(contact).radius_m || std::ranges::any_of(data.contacts.distances, [&](const auto& one) {
-           return is_radius(one) && !is_wire_zero(one) && one.first == contact;
-         });
+  const KnownDistance* const stated = stated_radius(data.contacts, contact);
+  return data.contacts.form_of(contact).radius_m || (stated != nullptr && !is_wire_zero(*stated));
 }
 
 }  // namespace

@@ -24,6 +24,7 @@
 #include "parameters/posterior.hpp"
 #include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "report/evaluation.hpp"
 #include "scheduling/worker_pool.hpp"
 #include "workflows/piece_threads.hpp"
 #include "workflows/workflows.hpp"
@@ -93,6 +94,7 @@ CalibratedArm calibrate(const Measurements& measured, const CalibrationSettings&
   auto arm = std::make_shared<CalibratedArm::Implementation>();
   arm->model = std::move(result.model);
   arm->model.data_findings = measured.implementation().check.kinds();
+  arm->model.of_one_contact = touches_one_contact_alone(data);
   arm->text = model_text(arm->model);
   CalibratedModel written = read_model(arm->text, "model.yaml");  // whose numbers have fewer digits here and there
   arm->model.robot = std::move(written.robot);

@@ -48,20 +48,11 @@ std::vector<Eigen::Vector3d> touched_places_m(const DataSet& data, const Correct
   return places_m;
 }
 
-/// Whether nothing was measured, and calibration poses touch one contact and no other.
-bool touches_one_contact_alone(const DataSet& data) {
-  const auto groups = contact_groups(data, poses_of(data, PoseSet::calibration));
-  return groups.size() == 1 && !has_instrument(data);
-}
-
 /// What calibration at one place cannot see; empty where there are several.
 std::string one_place_sentence(const DataSet& data, const CorrectedRobot& robot) {
   constexpr double kOnePlace_m = 0.2;
   const std::vector<Eigen::Vector3d> places_m = touched_places_m(data, robot);
-  if (places_m.size() == 1)
-    return "All calibration poses touch one contact: what moves all of them together is not seen, such as an error of "
-           "the first joint that depends on its angle alone. No error over the workspace is predicted from one contact "
-           "alone. A second contact elsewhere would show it.";
+  if (places_m.size() == 1) return one_contact_sentence();
   double apart_m = 0.0;
   for (const Eigen::Vector3d& one_m : places_m)
     for (const Eigen::Vector3d& other_m : places_m) apart_m = std::max(apart_m, (one_m - other_m).norm());
@@ -117,6 +108,18 @@ std::string unfitted_lengths_sentence(const std::vector<LengthErrorEntry>& lengt
 }
 
 }  // namespace
+
+bool touches_one_contact_alone(const DataSet& data) {
+  const auto groups = contact_groups(data, poses_of(data, PoseSet::calibration));
+  return groups.size() == 1 && !has_instrument(data);
+}
+
+std::string one_contact_sentence() {
+  return "All calibration poses touch one contact: what moves all of them together is not seen, such as an error of "
+         "the "
+         "first joint that depends on its angle alone. No error over the workspace is predicted from one contact "
+         "alone. A second contact elsewhere would show it.";
+}
 
 std::optional<WorkspaceEntry> without_figures_of_one_contact(std::optional<WorkspaceEntry> error, const DataSet& data) {
   if (error && touches_one_contact_alone(data)) {

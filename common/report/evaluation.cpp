@@ -49,7 +49,7 @@ void fields(auto& visit, Like<UnappliedEffect> auto& effect) {
 void fields(auto& visit, Like<Evaluation> auto& evaluation) {
   visit("error_mm", evaluation.error_mm, "pose_errors", evaluation.pose_errors, "data_check", evaluation.data_check,
         "effects_not_applied", evaluation.effects_not_applied, "uncertainty", evaluation.uncertainty, "beyond_radii",
-        evaluation.beyond_radii);
+        evaluation.beyond_radii, "orientations_judged", evaluation.orientations_judged);
   visit.when(evaluation.touches, "length_errors_mm", evaluation.length_errors);
 }
 

@@ -75,10 +75,15 @@ std::vector<std::string> contact_notes(const DataSet& data, const CorrectedRobot
 /// Where the radii of poses come from.
 PredictionEntry prediction_entry(const PredictionInterval& interval);
 
+/// Whether nothing was measured, and calibration poses touch one contact and no other: what they see of the arm is seen
+/// at one place, and the rest, which is believed of its links, was never held against anything.
+bool touches_one_contact_alone(const DataSet& data);
+/// What calibration on one contact alone cannot see, and that no error over the workspace is predicted from it.
+std::string one_contact_sentence();
+
 /// Nothing where the model does not state how sure it is. `placed`: its poses told where the arm stands.
 std::optional<WorkspaceEntry> workspace_entry(const CalibratedModel& model, bool placed);
-/// The same without figures where the calibration poses of `data` touch one contact alone: what they see of the arm is
-/// seen at one place, and the rest, which is believed of its links, was never held against anything.
+/// The same without figures where the calibration poses of `data` touch one contact alone.
 std::optional<WorkspaceEntry> without_figures_of_one_contact(std::optional<WorkspaceEntry> error, const DataSet& data);
 /// "0.21 mm rms, 0.4 mm for 95 % ...": the same for people.
 std::string workspace_sentence(const WorkspaceEntry& error);
@@ -126,7 +131,10 @@ struct Evaluation {
   /// nothing of where the tool is.
   std::optional<WorkspaceEntry> workspace_error{};
   std::vector<LengthErrorEntry> length_errors{};
-  bool touches = false;  ///< whether the poses touch anything: then lengths are listed
+  bool of_one_contact = false;  ///< the model; then no workspace_error
+  bool touches = false;         ///< whether the poses touch anything: then lengths are listed
+  /// Nothing where no pose has a measured one.
+  std::optional<bool> orientations_judged{};
 };
 
 /// {"error_mm": {"calibration": {mean, rms, p95, max}, "validation": ..., "accept": ...}, "pose_errors": [...],

@@ -83,13 +83,11 @@ std::vector<std::string> advice_on_joints(const ChangeReport& change) {
            });
   };
   add(may_be_heat, "Look at the temperature first: heat alone may do what was found of ",
-      ", whose zero need not have moved. Check again at the temperature of the "
-      "calibration, and master the joint only "
+      ", whose zero need not have moved. Check again at the temperature of the calibration, and master the joint only "
       "where its zero is off then, too");
   add(may_be_tool,
-      "See first whether the target was turned or shifted on the flange, which "
-      "these poses cannot tell "
-      "from the zero of ",
+      "See first whether the target was turned or shifted on the flange, which these poses cannot tell from the zero "
+      "of ",
       "");
   add([&](const ChangeCause& cause) { return is_zero(cause) && !may_be_heat(cause); }, "Look at ",
       ": where a zero has moved, master it again");
@@ -98,8 +96,7 @@ std::vector<std::string> advice_on_joints(const ChangeReport& change) {
       " is less than the model corrects for, as after work on a gear: what was corrected by the "
       "model now goes too far");
   add(stops_beyond, "See whether the signs of approach of ",
-      " are stated the right way round, and whether the "
-      "controller makes up for more lost motion than there is");
+      " are stated the right way round, and whether the controller makes up for more lost motion than there is");
   add([&](const ChangeCause& cause) { return !is_zero(cause) && !is_lost_motion(cause) && !heats(cause); }, "Look at ",
       "");
   add([&](const ChangeCause& cause) { return heats(cause); }, "Let a model correct what the temperature does to ",
@@ -139,8 +136,7 @@ std::string what_to_do_about_unnamed(const ChangeReport& change, const std::stri
     text +=
         "see whether instrument, base or tool were moved between the poses, whether joints were rounded when they were "
         "noted, and whether the instrument scatters more than the one that the model was measured with (where some "
-        "poses "
-        "are measured three times, check goes by these); ";
+        "poses are measured three times, check goes by these); ";
   return text + "measure 30 poses or more and run demecal diagnose DATASET.yaml --prior " + model_file + ".";
 }
 
@@ -188,8 +184,7 @@ std::string sentence_on(const ChangeCause& cause, const Robot& robot) {
 std::string what_to_do(const ChangeReport& change, const std::string& model_file) {
   if (change.unnamed) return what_to_do_about_unnamed(change, model_file);
   if (change.found.empty() && change.set_up_anew)
-    return "The robot itself is as it was; its base was found again in the "
-           "instrument's new frame.";
+    return "The robot itself is as it was; its base was found again in the instrument's new frame.";
   if (change.found.empty() && change.lacking.empty() && !change.unseen_zeros.empty())
     return "Nothing needs to be done about what these poses see.";
   if (change.found.empty())

@@ -91,10 +91,10 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"error_mm", {{"by_model", millimetres(change.error_m)}, {"explained", millimetres(change.left_m)}}},
             {"cause", Json()},
             {"causes", Json::array()},
+            {"advice", what_to_do(change, model_file)},
             {"tried", Json::array()},
             {"outliers", Json::array()},
-            {"not_testable", change.lacking},
-            {"advice", what_to_do(change, model_file)}};
+            {"not_testable", change.lacking}};
   json["unseen_zeros"] = Json::array();
   for (const UnseenZero& one : change.unseen_zeros) {
     json["unseen_zeros"].push_back(one.joint + 1);
@@ -118,9 +118,12 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
 }
 
 std::string change_text(const ChangeReport& change, const DataSet& data, const std::string& model_file) {
-  std::string text = answer(change) + '\n';
-  for (const std::string& sentence : change.lacking) text += "  " + sentence + '\n';
-  for (const UnseenZero& one : change.unseen_zeros) text += "  " + one.sentence + '\n';
+  std::string text = answer(change) + '\n', unseen;
+  for (const std::string& sentence : change.lacking) unseen += "  " + sentence + '\n';
+  for (const UnseenZero& one : change.unseen_zeros) unseen += "  " + one.sentence + '\n';
+  // Where nothing was found, "as far as these poses can tell" wants to be explained first.
+  const bool nothing_found = change.verdict == ChangeVerdict::unchanged;
+  if (nothing_found) text += unseen;
   for (const ChangeCause& cause : change.found) {
     text += "  " + sentence_on(change, cause, data.robot) + '\n';
     text += fmt::format("    p {} (all causes tried: p {})\n", chance_text(cause.p_value), chance_text(cause.p_family));
@@ -128,6 +131,7 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
       text += fmt::format("    cannot be distinguished with these poses from: {}\n", fmt::join(cause.rivals, ", "));
   }
   text += "  " + what_to_do(change, model_file) + '\n';
+  if (!nothing_found) text += unseen;
   text += fmt::format("  errors of the tool: rms {:.3g} mm by the model", millimetres(change.error_m));
   if (!change.found.empty()) text += fmt::format(", {:.3g} mm once this is taken in", millimetres(change.left_m));
   text +=

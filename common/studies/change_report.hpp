@@ -15,7 +15,8 @@ namespace demecal::inline studies {
 /// One JSON object on one line.
 std::string to_json(const ChangeReport& change, const DataSet& data, const std::string& model_file);
 
-/// The answer first, then what was found and what to do, then how sure it is.
+/// The answer first, then what was found and what to do, then what these poses do not see, then how sure it is. Where
+/// nothing was found, what they do not see qualifies the answer, and follows it.
 std::string change_text(const ChangeReport& change, const DataSet& data, const std::string& model_file);
 
 struct CheckRecord {

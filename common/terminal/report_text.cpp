@@ -7,12 +7,9 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "kinematics/units.hpp"
-#include "planning/information.hpp"
 #include "report/evaluation.hpp"
 #include "report/figures.hpp"
 #include "report/pose_places.hpp"
-#include "studies/plan_report.hpp"
 #include "terminal/text.hpp"
 
 namespace demecal::inline terminal {
@@ -245,7 +242,8 @@ std::string to_terminal(const Evaluation& evaluation) {
     text += fmt::format("  a corrected position is reached to within ± {:.3f} mm (k = 2)\n",
                         *evaluation.uncertainty->expanded_mm);
   }
-  text += workspace(evaluation.workspace_error);
+  text += evaluation.of_one_contact ? wrapped("  workspace:", one_contact_sentence(), 4)
+                                    : workspace(evaluation.workspace_error);
   return text;
 }
 
@@ -260,28 +258,6 @@ std::string to_terminal(const DataCheckEntry& check, ShownFindings shown) {
   const std::size_t count = shown == ShownFindings::all ? findings.size() : std::min(findings.size(), kTen);
   for (std::size_t i = 0; i < count; ++i) text += wrapped("  -", findings[i]->sentence, 4);
   if (findings.size() > count) text += fmt::format("  - {} more in report.json\n", findings.size() - count);
-  return text;
-}
-
-std::string to_terminal(const Plan& plan, const PlanRequest& request) {
-  constexpr std::size_t kIndent = 4;
-  std::string text = fmt::format("{}: {} calibration, {} validation, {} accept poses\n", request.robot.name,
-                                 plan.counts[0], plan.counts[1], plan.counts[2]);
-  text += fmt::format(
-      "  predicted error of the tool after calibration: rms {:.3g} mm, mean {:.3g} mm, 95 % below {:.3g} mm\n",
-      millimetres(plan.predicted.rms_m), millimetres(plan.predicted.mean_m), millimetres(plan.predicted.p95_m));
-  if (plan.random_rms_m > 0.0)
-    text += fmt::format("  as many poses at random: rms {:.3g} mm\n", millimetres(plan.random_rms_m));
-  text += fmt::format("  lower bound for any {} poses{}: rms {:.3g} mm\n", plan.counts[0],
-                      plan.sockets.empty() ? " in this cell" : " at these sockets", millimetres(plan.bound_rms_m));
-  if (!plan.by_places.empty()) text += fmt::format("  as many random poses at {} (rms)\n", places_sentence(plan));
-  for (const std::string& sentence : socket_sentences(plan)) text += "  " + sentence + '\n';
-  for (const std::string& warning : plan.warnings) text += wrapped("  !", warning, kIndent);
-  for (const std::string& sentence : unidentified_sentences(plan))
-    text += wrapped("  not identifiable:", sentence, kIndent);
-  for (const DetectableSize& one : plan.detectable)
-    text += wrapped("  would be found nine times in ten:", detectable_text(one, request.robot), kIndent);
-  for (const std::string& assumption : plan.assumptions) text += wrapped("  -", assumption, kIndent);
   return text;
 }
 

@@ -44,8 +44,8 @@ std::string blocks_table(const Study& study, std::size_t most);
 /// A line per method: validation and accept error, numbers identified, time. At most 100 columns wide.
 std::string comparison_table(const Comparison& comparison);
 
-/// What is planned and what it is predicted to reach, what may be wrong with it, what it cannot tell and what it rests
-/// on. At most kTerminalColumns wide.
+/// What is planned and what it is predicted to reach, the first of what it cannot tell and would find, what may be
+/// wrong with it, and the first thing it rests on; the plan's page has all of them. At most kTerminalColumns wide.
 std::string to_terminal(const Plan& plan, const PlanRequest& request);
 
 }  // namespace demecal::inline terminal

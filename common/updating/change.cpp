@@ -18,13 +18,11 @@
 #include "random/distributions.hpp"
 #include "updating/change_causes.hpp"
 #include "updating/change_rows.hpp"
+#include "updating/changed_zeros.hpp"
 #include "updating/expected_noise.hpp"
 #include "updating/joint_rounding.hpp"
-#include "updating/orientation_noise.hpp"
 #include "updating/repeats.hpp"
-#include "updating/unseen_zeros.hpp"
 #include "updating/unstated.hpp"
-#include "updating/warmed_zeros.hpp"
 
 namespace demecal::inline updating {
 namespace {
@@ -84,6 +82,8 @@ class ChangeSearch {
     report_.lacking = unstated_sentences(robot_, data_, poses_, rows.unstated_m, report_.noise_m);
     const double chance_of_left = judge(rows);
     if (report_.verdict == ChangeVerdict::changed && chance_of_left < kChanceOfNoise) judge_as_rounded();
+    if (std::string heat = unseen_heat_sentence(report_.found, robot_, data_, poses_); !heat.empty())
+      report_.not_testable.insert(report_.not_testable.begin(), std::move(heat));
     for (std::size_t& pose : report_.outliers) pose = distinct_.measured[pose];
     return std::move(report_);
   }

@@ -1,4 +1,5 @@
-// The rows of unit variance by which new poses are compared with a model, and the causes that are tried on them.
+// The rows of unit variance by which new poses are compared with a model, the causes that are tried on them, and how
+// far orientations scatter there.
 #pragma once
 
 #include <Eigen/Core>
@@ -48,5 +49,18 @@ struct ChangeRows {
   double unstated_m = 0.0;
 };
 ChangeRows whitened(const ScaledChangeRows& scaled);
+
+/// Without the orientations of poses whose tool's turn the model does not know.
+DataSet without_unknown_orientations(const CalibratedModel& model, DataSet data);
+
+struct OrientationNoise {
+  double noise_rad = 0.0;  ///< per axis
+  double freedom = 0.0;    ///< as of so many rows that is known
+};
+
+/// What poses show of it once the model's covariance and all that may have changed are taken out: a model file states
+/// none. By restricted maximum likelihood, the noise of positions being known.
+OrientationNoise orientation_noise(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
+                                   const std::vector<Effect>& effects);
 
 }  // namespace demecal::inline updating

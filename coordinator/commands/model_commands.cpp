@@ -200,13 +200,16 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
   evaluation.touches = has_contacts(data);
   if (evaluation.touches && !has_instrument(data)) {
     evaluation.uncertainty.reset();
-    evaluation.workspace_error = workspace_entry(model, false);
+    evaluation.of_one_contact = model.of_one_contact;
+    if (!model.of_one_contact) evaluation.workspace_error = workspace_entry(model, false);
   }
   evaluation.length_errors = length_error_entries(data, robot, nullptr);
   if (model.interval) evaluation.prediction = prediction_entry(*model.interval);
   fmt::print(stderr, "{}", to_terminal(evaluation.data_check, ShownFindings::all));
-  if (std::ranges::any_of(data.poses, [](const MeasuredPose& pose) { return pose.orientation.has_value(); }))
+  if (std::ranges::any_of(data.poses, [](const MeasuredPose& pose) { return pose.orientation.has_value(); })) {
+    evaluation.orientations_judged = false;
     fmt::print(stderr, "{}: orientations are not judged, only positions are\n", data.file);
+  }
   for (const UnappliedEffect& one : evaluation.effects_not_applied)
     fmt::print(stderr, "{}: {}\n", data.file, one.sentence);
   fmt::print("{}", request.json ? to_json(evaluation) : to_terminal(evaluation));

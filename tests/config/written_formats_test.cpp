@@ -98,15 +98,12 @@ const UncertaintyEntry kMadeUpUncertainty{{{"numbers of the model", "A", 0.03}},
 TEST(WrittenFormats, EvaluationHasTheKeysOfThePage) {
   Report report = full_report();
   for (PoseErrorEntry& pose : report.pose_errors) pose.place = {};  // evaluate says no more than the errors
-  Evaluation evaluation;
-  evaluation.error_mm = report.after;
-  evaluation.pose_errors = report.pose_errors;
-  evaluation.data_check = report.data_check;
+  Evaluation evaluation{report.after, report.pose_errors, report.data_check, {}, report.prediction_interval};
   evaluation.effects_not_applied = {{"backlash", 2, "approach", 30, "It cannot be applied."}};
-  evaluation.prediction = report.prediction_interval;
   evaluation.uncertainty = kMadeUpUncertainty;
   evaluation.length_errors = report.length_errors;
   evaluation.touches = true;
+  evaluation.orientations_judged = false;
   expect_json("evaluate --json", {to_json(evaluation)});
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "studies/change_advice.hpp"
+
 namespace demecal {
 namespace {
 
@@ -123,6 +125,23 @@ TEST(ChangeReport, SaysRightAfterTheVerdictWhichZerosThePosesDoNotSee) {
   change.orientation_rad = 1e-4;
   EXPECT_TRUE(says(change, "and 0.0057 deg per axis"));
   EXPECT_NE(to_json(change, DataSet{}, "model.yaml").find("\"orientations_judged\":true"), std::string::npos);
+}
+
+TEST(ChangeReport, SaysWhatWasFoundAndWhatToDoBeforeWhatThePosesDoNotSee) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  change.found = {zero_of(2)};
+  change.unseen_zeros = {{5, "The zero of joint 6 cannot be seen."}};
+  change.lacking = {"The temperature is not stated."};
+  const std::string to_do = what_to_do(change, "model.yaml");
+  EXPECT_TRUE(says(change, to_do + "\n  The temperature is not stated.\n  The zero of joint 6 cannot be seen.\n"));
+  DataSet data;
+  data.robot.chain.joints.resize(6);
+  const std::string json = to_json(change, data, "model.yaml");
+  EXPECT_LT(json.find("\"advice\""), json.find("\"not_testable\""));
+  change.found.clear();
+  change.unnamed = true;
+  EXPECT_TRUE(says(change, "model.yaml.\n  The temperature is not stated.\n"));
 }
 
 TEST(ChangeReport, TakesTheZeroOfAJointForHeatFirstWhereThatDoesAsMuch) {

@@ -119,6 +119,9 @@ TEST(Terminal, SaysOfPosesThatTouchHowFarOffTheToolMayBeAnywhere) {
   Evaluation evaluation{errors, {}, {}, {}, {}};
   evaluation.workspace_error = WorkspaceEntry{0.25, 0.5, true};
   EXPECT_THAT(to_terminal(evaluation), HasSubstr("off by 0.250 mm (rms)"));
+  evaluation.of_one_contact = true;
+  EXPECT_THAT(to_terminal(evaluation), Not(HasSubstr("off by 0.250 mm (rms)")));
+  EXPECT_THAT(to_terminal(evaluation), HasSubstr("All calibration poses touch one contact"));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A large change is named alone and in its full size, since causes are taken into the robot before others are tried.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "kinematics/units.hpp"
@@ -61,6 +62,24 @@ TEST(LargeChange, BesideABaseThatStandsElsewhereIsNamedAlone) {
   for (const ChangeCause& cause : report.found)
     EXPECT_TRUE(cause.is_registration || (cause.effect.joint == 2 && cause.effect.kind == "joint_offset"))
         << names_of(report);
+}
+
+TEST(LargeChange, OfAZeroBesideABaseThatMovedALittleIsNamedWithIt) {
+  for (const int joint : {1, 2, 3}) {
+    CorrectedRobot now = true_wrist(1);
+    now.sensor_from_base.translation() += Eigen::Vector3d(3e-3, -2e-3, 1e-3);
+    now.chain.joints[static_cast<std::size_t>(joint)].theta_rad += radians(10.0);
+    const ChangeReport report = find_change(model_of_large(1), measured_wrist(now, 14, 0, 903));
+    EXPECT_EQ(report.verdict, ChangeVerdict::changed);
+    EXPECT_FALSE(report.unnamed || report.more) << names_of(report);
+    for (const ChangeCause& cause : report.found)
+      if (!cause.is_registration) {
+        EXPECT_EQ(cause.effect.kind, "joint_offset") << names_of(report);
+        EXPECT_EQ(cause.effect.joint, joint) << names_of(report);
+        EXPECT_NEAR(cause.size, radians(10.0), 4.0 * cause.standard_error) << names_of(report);
+      }
+    EXPECT_TRUE(std::ranges::any_of(report.found, [](const ChangeCause& cause) { return !cause.is_registration; }));
+  }
 }
 
 }  // namespace

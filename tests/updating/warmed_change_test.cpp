@@ -1,6 +1,8 @@
 // A zero that is off because the arm is warmer than at its calibration is told from one that moved.
 #include <gtest/gtest.h>
 
+#include <string>
+
 #include "lacking_numbers.hpp"
 #include "parameters/declared_model.hpp"
 #include "updating/change.hpp"
@@ -57,6 +59,28 @@ TEST(WarmedZero, IsHeldAgainstTheReferenceOfTheModel) {
   EXPECT_TRUE(warmer.warmed.front().may_be_heat);
   ASSERT_EQ(moved.warmed.size(), 1U);
   EXPECT_FALSE(moved.warmed.front().may_be_heat);
+}
+
+TEST(WarmedZero, CannotBeToldFromHeatWherePosesDoNotShowWhatTheTemperatureDoes) {
+  CalibratedModel model = cold_model();
+  CorrectedRobot now = true_wrist(1);
+  now.chain.joints[2].theta_rad += 5e-3;
+  DataSet data = measured_wrist(now, 15, 0, 936);
+  const auto said = [&] {
+    const ChangeReport report = find_change(model, data);
+    EXPECT_FALSE(report.found.empty());
+    return report.not_testable.empty() ? std::string() : report.not_testable.front();
+  };
+  EXPECT_EQ(said().find("heat"), std::string::npos) << "of a model without effects of the temperature";
+  model.robot.effects = {
+      {.kind = "thermal_offset", .joint = 2, .settings = {{"reference_celsius", 20.0}}, .values = {1e-5}}};
+  EXPECT_EQ(said(), "The temperature was not recorded: heat cannot be told apart from the zeros that were found.");
+  for (MeasuredPose& pose : data.poses) pose.temperature_celsius = 20.0;
+  EXPECT_EQ(said(),
+            "The temperature is the same at all poses: heat cannot be told apart from the zeros that were found.");
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    data.poses[i].temperature_celsius = 20.0 + static_cast<double>(i % 2);
+  EXPECT_EQ(said().find("heat"), std::string::npos);
 }
 
 }  // namespace
