@@ -150,7 +150,7 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   const SmallJob job(1000, 2, "  backlash:\n    - {joint: 2, width_rad: 0.002}\n");
   StartedProgram monitor("demecal", {"monitor", "--domain", other_domain(1), "--json", "--ros2"});
   ASSERT_TRUE(monitor.wait_for_out("begin"));
-  StartedProgram reader("read-topics", {other_domain(1), "60"});
+  StartedProgram reader("read-topics", {other_domain(1), "300"});
   ASSERT_TRUE(reader.wait_for_out("reading"));
   const Ended calibrated = run("demecal", calibrate(job, "out", 1));
   ASSERT_EQ(calibrated.code, 0) << calibrated.err;
