@@ -159,10 +159,12 @@ void add_force(CLI::App& command, bool& force) {
       "not write, or that were changed since");
 }
 
+void say_findings(const CheckedData& checked) {
+  fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file,
+             to_terminal(data_check_entry(checked.check), ShownFindings::ten));
+}
+
 void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked) {
-  if (checked.check.verdict() != DataVerdict::contradiction)
-    fmt::print(stderr, "{}: what was found in the data:\n{}", checked.data.file,
-               to_terminal(data_check_entry(checked.check), ShownFindings::ten));
   const Report report = refusal_report(checked.data, job, checked.check);
   remove_earlier_results(folder, {"report.json", "report.html"});
   write_result(folder, "report.json", to_json(report));

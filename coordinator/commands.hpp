@@ -101,8 +101,10 @@ CLI::Validator not_negative();
 /// The option --force of a command that fits or judges data.
 void add_force(CLI::App& command, bool& force);
 
-/// Writes report.json and report.html of data that no model was fitted to, in place of the results of an earlier run,
-/// and says what was found on standard error.
+/// What the check found in the data, on standard error.
+void say_findings(const CheckedData& checked);
+
+/// Writes report.json and report.html of data that no model was fitted to, in place of the results of an earlier run.
 void write_refusal(const std::string& folder, const std::string& job, const CheckedData& checked);
 
 /// What `fit` returns. Where it throws InputError, since no model fits the data, what the check found in them is said
@@ -112,7 +114,10 @@ auto fit_or_report(const std::string& folder, const std::string& job, const Chec
   try {
     return fit();
   } catch (const InputError&) {
-    if (!checked.check.findings.empty()) write_refusal(folder, job, checked);
+    if (!checked.check.findings.empty()) {
+      say_findings(checked);
+      write_refusal(folder, job, checked);
+    }
     throw;
   }
 }

@@ -187,8 +187,8 @@ std::string pose_json(const Robot& robot, const JointVector& q, const Eigen::Iso
   json["joints"] = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < robot.chain.joints.size(); ++i) {
     const Joint& joint = robot.chain.joints[i];
-    nlohmann::ordered_json one{
-        {"joint", i + 1}, {"name", drawn_name(robot, i)}, {"type", is_revolute(joint) ? "revolute" : "prismatic"}};
+    const std::string type = joint.endless ? "continuous" : is_revolute(joint) ? "revolute" : "prismatic";
+    nlohmann::ordered_json one{{"joint", i + 1}, {"name", drawn_name(robot, i)}, {"type", type}};
     const std::string unit = unit_word(joint);
     one["at_" + unit] = border(joint, q[static_cast<Eigen::Index>(i)]);
     if (!joint.endless) one["limits_" + unit] = {border(joint, joint.lower), border(joint, joint.upper)};

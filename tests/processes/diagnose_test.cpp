@@ -202,6 +202,20 @@ TEST(Evaluate, RefusesTargetsThatTheModelLacks) {
   }
 }
 
+TEST(Diagnose, WhatWasFoundInTheDataIsSaidWhereNoModelFitsThemEither) {
+  const SmallJob job;
+  std::istringstream poses(job.text("data/poses.csv"));
+  std::string table, line;
+  std::getline(poses, line);
+  for (std::size_t row = 0; table += line + '\n', std::getline(poses, line); ++row)
+    if (row % 2 == 0) line.insert(line.find(',') + 1, "9");  // a digit too many in the first joint
+  std::ofstream(job.path("data/poses.csv")) << table;
+  const Ended ended = run("demecal", diagnose(job, "out", {"--force"}));
+  ASSERT_EQ(ended.code, 11) << ended.err;
+  EXPECT_NE(ended.err.find("what was found in the data"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("no model fits these poses"), std::string::npos) << ended.err;
+}
+
 TEST(Diagnose, PrintsItsReportAsJson) {
   const SmallJob job;
   const Ended ended = run("demecal", diagnose(job, "out", {"--json", "--candidates", "backlash"}));

@@ -30,6 +30,7 @@ TEST(Robot, IsImportedAndShownWhereItsUrdfHasIt) {
   ASSERT_EQ(shown.code, 0) << shown.err;
   EXPECT_THAT(shown.err, IsEmpty());
   const Json pose = Json::parse(shown.out);
+  EXPECT_EQ(pose["joints"][1]["type"], "continuous");
   // 400 up, 300 along x (90 deg by the origin, -90 deg by the joint), and then 100 along what was z and is x now.
   const double expected[] = {400.0, 0.0, 400.0};
   for (int i = 0; i < 3; ++i) {
