@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
-#include <ranges>
 #include <string_view>
 #include <vector>
 
@@ -179,10 +178,10 @@ std::string control_chart(const std::vector<CheckRecord>& records) {
 
 std::string record_table(const std::vector<CheckRecord>& records) {
   std::string rows;
-  for (const CheckRecord& one : std::views::reverse(records))
-    rows += table_row(escaped(one.date),
-                      {escaped(one.verdict), fixed(one.strain, 2), fixed(one.strain_limit, 2), fixed(one.error_mm, 3),
-                       std::to_string(one.poses), escaped(one.cause), escaped(one.data)});
+  for (auto one = records.rbegin(); one != records.rend(); ++one)
+    rows += table_row(escaped(one->date),
+                      {escaped(one->verdict), fixed(one->strain, 2), fixed(one->strain_limit, 2),
+                       fixed(one->error_mm, 3), std::to_string(one->poses), escaped(one->cause), escaped(one->data)});
   return table_panel("checks",
                      "<th>date</th><th>verdict</th><th>errors over expected</th><th>limit</th><th>error, mm rms</th>"
                      "<th>poses</th><th>cause</th><th>data</th>",

@@ -71,6 +71,7 @@ class KrlReader {
       at += list.size - 1;
     }
     KrlFrames frames(text_, controller_);
+    frames.take_points(program_.targets);
     for (Target& target : program_.targets) {
       const std::string carried = std::exchange(target.frames.unknown_frame, "");
       frames.complete(target);
@@ -96,9 +97,12 @@ class KrlReader {
       }
       const std::size_t end = text_.word_end(begin);
       take_word(lower_case(code.substr(begin, end - begin)), context);
-      std::size_t after = text_.skip_spaces(end);
-      if (after < at && code[after] == '[') after = text_.skip_spaces(std::min(code.find(']', after), at - 1) + 1);
-      if (after < at && code[after] == '=') name = std::string(code.substr(begin, end - begin));
+      std::size_t after = text_.skip_spaces(end), name_end = end;
+      if (after < at && code[after] == '[') {
+        name_end = std::min(code.find(']', after), at - 1) + 1;
+        after = text_.skip_spaces(name_end);
+      }
+      if (after < at && code[after] == '=') name = std::string(code.substr(begin, name_end - begin));
       begin = end;
     }
     return context;

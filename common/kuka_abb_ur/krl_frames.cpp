@@ -79,7 +79,8 @@ bool is_line(const std::string& word) {
 
 }  // namespace
 
-KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller) : text_(text), controller_(controller) {
+KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller)
+    : text_(text), controller_(controller), given_(text) {
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_data(begin, end); });
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     const auto data = data_of_.find(text.word_at(begin));
@@ -223,8 +224,14 @@ void KrlFrames::read_motion(const std::string& word, std::size_t begin, std::siz
   motions_[begin] = motion;
   const std::size_t line_end = std::min(text_.code().find('\n', begin), text_.code().size());
   for (std::size_t points = points_of_krl_motion(word); points > 0 && next < line_end; --points) {
-    const std::string name = text_.skip_spaces(next) < line_end ? text_.word_at(next) : "";
-    if (!name.empty()) uses_[name].push_back({begin, motion, {}});
+    const std::size_t first = std::min(text_.skip_spaces(next), line_end);
+    if (const std::size_t word_end = std::min(text_.word_end(first), line_end); word_end > first) {
+      const std::size_t open = text_.skip_spaces(word_end);
+      const bool element = open < line_end && text_.code()[open] == '[';
+      const std::size_t end = element ? std::min(text_.code().find(']', open), line_end - 1) + 1 : word_end;
+      const auto [stem, index] = krl_point_name(text_.code().substr(first, end - first));
+      uses_[stem].push_back({index, {begin, motion, {}}});
+    }
     next = next_krl_argument(text_.code(), next, line_end);
   }
 }
@@ -263,30 +270,6 @@ StatedFrames KrlFrames::held(std::size_t begin, bool by_pose) {
   }
   if (tool_beside_) frames.unknown_tool = "the tool may stand beside the robot ($IPO_MODE)";
   return frames;
-}
-
-void KrlFrames::complete(Target& target) {
-  const std::size_t begin = target.begin();
-  const std::string name = lower_case(target.name);
-  target.order = begin;
-  if (const auto uses = uses_.find(name); !name.empty() && uses != uses_.end()) {
-    for (TargetUse& use : uses->second) use.frames = held(use.begin, target.is_pose());
-    return take_uses(uses->second, target);
-  }
-  const auto after = motions_.upper_bound(begin);
-  const std::size_t line = text_.place(begin).line;
-  const bool in_motion = name.empty() && after != motions_.begin() && text_.place(std::prev(after)->first).line == line;
-  if (in_motion) target.motion = std::prev(after)->second;
-  const auto data = name.starts_with('x') ? data_of_.find('f' + name.substr(1)) : data_of_.end();
-  target.frames = held(begin, target.is_pose() && in_motion);
-  if (data == data_of_.end()) return;
-  set_tool(target.frames, tool_of(data->second));
-  set_frame(target.frames, base_of(data->second));
-}
-
-void KrlFrames::note_routines(Program& program) const {
-  flow_.note_arrivals(program);
-  if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 
 }  // namespace demecal::inline kuka_abb_ur

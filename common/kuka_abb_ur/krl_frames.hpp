@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parsed_programs/frame_flow.hpp"
+#include "parsed_programs/given_numbers.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -21,6 +22,8 @@ class KrlFrames {
  public:
   KrlFrames(const ProgramText& text, const ControllerData& controller);
 
+  /// Takes the points that the program gives numbers; before complete().
+  void take_points(const std::vector<Target>& targets);
   /// Completes a target that was read, by its name and place.
   void complete(Target& target);
   /// When all targets are completed: where routines end what is known of the arm, and once which calls of other files'
@@ -67,8 +70,17 @@ class KrlFrames {
   bool tool_beside_ = false;                  ///< $IPO_MODE may let it stand beside the robot
   std::map<std::size_t, std::string> calls_;  ///< of routines, where they stand
   std::set<std::size_t> believed_;            ///< calls that targets' frames were believed through
-  std::map<std::string, std::vector<TargetUse>> uses_;
-  std::map<std::size_t, Motion> motions_;  ///< where each begins
+  struct PointUse {
+    std::string index;  ///< of its array; empty: none, or computed
+    TargetUse use;
+  };
+  std::vector<TargetUse> uses_of(const std::string& stem, const std::string& index, const Target& target);
+
+  std::map<std::string, std::vector<PointUse>> uses_;  ///< by the point's name without index
+  GivenNumbers given_;
+  std::set<std::string> any_element_;          ///< arrays of which an element is given numbers whose index is computed
+  std::vector<std::size_t> never_moved_to_{};  ///< where points stand that no motion names
+  std::map<std::size_t, Motion> motions_;      ///< where each begins
 };
 
 }  // namespace demecal::inline kuka_abb_ur

@@ -29,11 +29,20 @@ std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::siz
   return begin + 1;
 }
 
+std::pair<std::string, std::string> krl_point_name(std::string_view name) {
+  const std::size_t open = std::min(name.find('['), name.size());
+  std::string stem = lower_case(name.substr(0, open)), index(name.substr(open));
+  std::erase_if(stem, [](char letter) { return letter == ' ' || letter == '\t'; });
+  std::erase_if(index, [](char letter) { return letter == ' ' || letter == '\t'; });
+  if (index.find_first_not_of("0123456789,[]") != std::string::npos) index.clear();
+  return {stem, index};
+}
+
 KrlStatements::KrlStatements(const ProgramText& text, Program& program)
     : text_(text), code_(text.code()), program_(program), changes_(text) {
   for (const Target& target : program.targets) {
     numbers_.insert(target.begin());
-    if (!target.name.empty()) names_.insert(lower_case(target.name));
+    if (!target.name.empty()) names_.insert(lower_case(target.name.substr(0, target.name.find('['))));
   }
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     read_name(begin, end);

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
@@ -17,6 +18,9 @@ std::size_t points_of_krl_motion(std::string_view word);
 
 /// Behind the comma that ends the argument at `begin`, or past `end`.
 std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::size_t end);
+
+/// The name of a point in small letters, and its index, "[3]"; no index where there is none or it is computed.
+std::pair<std::string, std::string> krl_point_name(std::string_view name);
 
 /// The numbers of a point are those that the robot is sent to where every statement that names it gives it numbers,
 /// moves to it or copies it to another. Motions to anything else are said in the program.

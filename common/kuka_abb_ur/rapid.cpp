@@ -14,6 +14,7 @@
 #include "kinematics/chain.hpp"
 #include "kuka_abb_ur/rapid_frames.hpp"
 #include "kuka_abb_ur/rapid_statements.hpp"
+#include "kuka_abb_ur/rapid_way.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"

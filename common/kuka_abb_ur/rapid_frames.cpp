@@ -155,7 +155,11 @@ KnownFrame RapidFrames::known_object(const std::string& name, std::size_t begin)
 
 void RapidFrames::read_move(std::size_t begin, const std::string& word, std::size_t end) {
   const std::string_view code = text_.code();
-  const std::vector<std::size_t> ends = argument_ends(code, end);
+  std::vector<std::size_t> ends = argument_ends(code, end);
+  if (text_.next(end) == '\\') {  // \Conc, before the first target
+    end = std::min(ends.front() + 1, code.size());
+    ends.erase(ends.begin());
+  }
   if (ends.size() < 3) return;
   TargetUse use{begin, Motion::joints, {}};
   const bool line = word.starts_with("movel") || word.starts_with("movec") || word.starts_with("triggl");

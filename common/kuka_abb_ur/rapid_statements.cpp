@@ -9,9 +9,7 @@
 #include <utility>
 
 #include "data/text.hpp"
-#include "kuka_abb_ur/rapid_way.hpp"
 #include "parsed_programs/compliance.hpp"
-#include "parsed_programs/frame_flow.hpp"
 
 namespace demecal::inline kuka_abb_ur {
 namespace {
@@ -108,34 +106,6 @@ void forget_stated_configurations(const ProgramText& text, Program& program) {
   }
 }
 
-void end_at_rapid_routines(const ProgramText& text, Program& program) {
-  const auto name_after = [&](const std::string& word, std::size_t end) -> std::size_t {
-    const std::size_t next = text.skip_spaces(end);
-    if (word == "proc" || word == "trap") return next;
-    return word == "func" ? text.skip_spaces(text.word_end(next)) : 0;  // behind its type
-  };
-  const auto for_each = [&](const auto& visit) {
-    text.for_each_word([&](std::size_t begin, std::size_t end) {
-      const std::string word = text.word_at(begin);
-      visit(begin, word, name_after(word, end));
-    });
-  };
-  std::set<std::string> routines;
-  for_each([&](std::size_t /*begin*/, const std::string& /*word*/, std::size_t name) {
-    if (name != 0) routines.insert(text.word_at(name));
-  });
-  FrameFlow flow("", "");
-  RapidWay way(text, flow);
-  std::size_t own = 0;
-  for_each([&](std::size_t begin, const std::string& word, std::size_t name) {
-    if (name != 0) flow.begin_routine(begin, text.word_at(own = name), text.source().file_at(begin));
-    if (begin != own && routines.contains(word)) flow.call(begin, word, false);
-    if (name == 0 && begin != own) way.read_word(begin, word);
-  });
-  flow.finish();
-  flow.note_arrivals(program);
-}
-
 RapidStatements::RapidStatements(const ProgramText& text, Program& program)
     : text_(text), code_(text.code()), program_(program), changes_(text) {
   for (const Target& target : program.targets) {
@@ -151,8 +121,26 @@ RapidStatements::RapidStatements(const ProgramText& text, Program& program)
     const std::string word = text.word_at(begin);
     if (word == "softact") note_compliance(text, begin, "SoftAct", "SoftDeact", program);
     if (word == "fcact") note_compliance(text, begin, "FCAct", "FCDeact", program);
+    if (word == "cssact") note_compliance(text, begin, "CSSAct", "CSSDeactMoveL", program);
+    if (word == "egmrunpose" || word == "egmrunjoint") program.joints_lost_at.push_back(begin);  // led from outside
   });
+  leave_handed_on();
   changes_.mark(program.targets);
+}
+
+/// Targets that stand where they are used, in instructions that are none of the motions known: what becomes of them,
+/// with which tool and in which frame, is not told.
+void RapidStatements::leave_handed_on() {
+  for (Target& target : program_.targets) {
+    const std::size_t begin = target.begin();
+    const std::size_t statement = code_.substr(0, begin).rfind(';') + 1;  // npos + 1: the text's begin
+    const bool of_motion = std::ranges::any_of(
+        destinations_, [&](const TextRange& range) { return begin >= range.begin && begin < range.end; });
+    if (!target.name.empty() || of_motion || code_.substr(statement, begin - statement).find(":=") != std::string::npos)
+      continue;
+    target.not_sent_to = "it is handed to an instruction that is none of the motions known, which is not followed";
+    program_.joints_lost_at.push_back(begin);
+  }
 }
 
 void RapidStatements::read_motion(std::size_t end, std::size_t targets) {

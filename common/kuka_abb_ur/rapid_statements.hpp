@@ -35,9 +35,6 @@ std::vector<TextRange> displaced_by_pdisp(const ProgramText& text);
 /// Where ConfJ \Off or ConfL \Off stands in the program, robots need not take the configurations that targets state.
 void forget_stated_configurations(const ProgramText& text, Program& program);
 
-/// Tells `program`, whose motions are known, where its routines end what is known of the arm.
-void end_at_rapid_routines(const ProgramText& text, Program& program);
-
 /// The numbers of a declared target are those that the robot is sent to where every statement that names it moves to
 /// it, to Offs(...) or RelTool(...) of it, or copies it to another.
 class RapidStatements {
@@ -50,6 +47,7 @@ class RapidStatements {
   void read_name(std::size_t begin, std::size_t end);
   /// \Corr and \Track: sensors shift the motion of the statement in which they stand.
   void read_guidance(std::size_t begin, std::size_t end);
+  void leave_handed_on();
   /// Says that a motion goes to none of the targets.
   void goes_elsewhere(const TextRange& range);
   bool holds_target(const TextRange& range) const;

@@ -1,6 +1,7 @@
 #include "kuka_abb_ur/rapid_way.hpp"
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 namespace demecal::inline kuka_abb_ur {
@@ -41,6 +42,34 @@ void RapidWay::read_word(std::size_t begin, const std::string& word) {
   if (word == "error" || word == "undo") return flow_.begin_routine(begin, "", text_.source().file_at(begin));
   const std::size_t colon = text_.skip_spaces(end);
   if (text_.next(end) == ':' && !text_.code().substr(colon).starts_with(":=")) flow_.label(begin, word);
+}
+
+void end_at_rapid_routines(const ProgramText& text, Program& program) {
+  const auto name_after = [&](const std::string& word, std::size_t end) -> std::size_t {
+    const std::size_t next = text.skip_spaces(end);
+    if (word == "proc" || word == "trap") return next;
+    return word == "func" ? text.skip_spaces(text.word_end(next)) : 0;  // behind its type
+  };
+  const auto for_each = [&](const auto& visit) {
+    text.for_each_word([&](std::size_t begin, std::size_t end) {
+      const std::string word = text.word_at(begin);
+      visit(begin, word, name_after(word, end));
+    });
+  };
+  std::set<std::string> routines;
+  for_each([&](std::size_t /*begin*/, const std::string& /*word*/, std::size_t name) {
+    if (name != 0) routines.insert(text.word_at(name));
+  });
+  FrameFlow flow("", "");
+  RapidWay way(text, flow);
+  std::size_t own = 0;
+  for_each([&](std::size_t begin, const std::string& word, std::size_t name) {
+    if (name != 0) flow.begin_routine(begin, text.word_at(own = name), text.source().file_at(begin));
+    if (begin != own && routines.contains(word)) flow.call(begin, word, false);
+    if (name == 0 && begin != own) way.read_word(begin, word);
+  });
+  flow.finish();
+  flow.note_arrivals(program);
 }
 
 }  // namespace demecal::inline kuka_abb_ur

@@ -6,9 +6,13 @@
 #include <string>
 
 #include "parsed_programs/frame_flow.hpp"
+#include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline kuka_abb_ur {
+
+/// Tells `program`, whose motions are known, where its routines end what is known of the arm.
+void end_at_rapid_routines(const ProgramText& text, Program& program);
 
 class RapidWay {
  public:

@@ -73,6 +73,11 @@ std::optional<std::size_t> UrScriptVariables::only_literal(const std::string& na
                                                                         : std::nullopt;
 }
 
+std::vector<std::size_t> UrScriptVariables::literals_at(const std::string& name, std::size_t motion) const {
+  const std::optional<std::size_t> given_last = given.at(name, motion);
+  return given_last ? std::vector{*given_last} : literals.at(name);
+}
+
 std::optional<std::size_t> urscript_close(const ProgramText& text, std::size_t open) {
   const std::string_view code = text.code();
   int depth = 0;
@@ -85,7 +90,7 @@ std::optional<std::size_t> urscript_close(const ProgramText& text, std::size_t o
 
 UrScriptVariables urscript_variables(const ProgramText& text) {
   const std::string_view code = text.code();
-  UrScriptVariables variables;
+  UrScriptVariables variables{.given = GivenNumbers(text)};
   std::size_t header_end = 0;  // of the function whose header is being read
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     const std::string name(code.substr(begin, end - begin));
@@ -107,7 +112,9 @@ UrScriptVariables urscript_variables(const ProgramText& text) {
                                                 : text.word_end(text.skip_spaces(sign + 1)));
     if (sign >= code.size() || code[sign] != '=' || code.substr(sign).starts_with("==")) return;
     const auto literal = part ? std::nullopt : urscript_literal(text, sign + 1);
-    literal ? variables.literals[name].push_back(*literal) : void(variables.computed.insert(name));
+    if (!literal) return void(variables.computed.insert(name));
+    variables.literals[name].push_back(*literal);
+    variables.given.give(name, *literal);
   });
   return variables;
 }

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "parsed_programs/given_numbers.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -29,6 +30,10 @@ struct UrScriptVariables {
 
   /// The literal of a variable that is given this one and nothing else.
   std::optional<std::size_t> only_literal(const std::string& name) const;
+  /// Those of a variable with literals that the motion at `motion` may go to.
+  std::vector<std::size_t> literals_at(const std::string& name, std::size_t motion) const;
+
+  GivenNumbers given;
 };
 UrScriptVariables urscript_variables(const ProgramText& text);
 

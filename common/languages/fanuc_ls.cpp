@@ -36,14 +36,18 @@ constexpr CellUnit kWprAngle{std::numbers::pi / 180.0, kDecimalsDeg};
 class FanucReader {
  public:
   explicit FanucReader(const ReaderInput& input)
-      : text_(input.source, {}), code_(text_.code()), arm_(input.arm), controller_(input.controller) {
+      : text_(input.source, {}),
+        instructions_(input.source, {.strings = false}),
+        code_(text_.code()),
+        arm_(input.arm),
+        controller_(input.controller) {
     require_six_joints(input.arm, input.source.file(), "FANUC's TP");
   }
 
   Program read() {
     const std::size_t instructions = fanuc_section(text_, "/mn"), positions = fanuc_section(text_, "/pos");
     moves_arm_ = moves_first_group(text_, instructions);
-    if (instructions < positions) motions_.read(text_, instructions, positions, changes_);
+    if (instructions < positions) motions_.read(instructions_, instructions, positions, changes_);
     for (const auto& [begin, goal] : motions_.to_others())
       skip_target(program_, {.name = "", .place = text_.place(begin)},
                   goal.empty() ? "the motion goes to a register, whose value is not in this file"
@@ -55,7 +59,7 @@ class FanucReader {
     changes_.mark(program_.targets);
     note_other_zero();
     end_at_motions_elsewhere();
-    motions_.note_way(text_, program_);
+    motions_.note_way(instructions_, program_);
     for (Target& target : program_.targets) {
       if (target.is_pose() && tracks_a_line(text_))
         target.frames.unknown_frame = "it may move with a line that is tracked";
@@ -214,6 +218,8 @@ class FanucReader {
   }
 
   ProgramText text_;
+  /// The same for /MN, where remarks and the names of positions may have one quote, of inches.
+  ProgramText instructions_;
   std::string_view code_;
   const Chain& arm_;
   const ControllerData& controller_;

@@ -69,7 +69,7 @@ std::string blanked(std::string_view text, CommentStyle style) {
       const std::size_t end = line_end(text, i);
       blank(i, end);
       i = end;
-    } else if (text[i] == '"') {
+    } else if (text[i] == '"' && style.strings) {
       const std::size_t end = line_end(text, i);
       const std::size_t quote = i + 1 + std::min(text.substr(i + 1, end - i - 1).find('"'), end - i - 1);
       blank(i + 1, quote);

@@ -74,6 +74,7 @@ struct TextPlace {
 struct CommentStyle {
   char comment = '\0';  ///< from here to the end of its line
   char line = '\0';     ///< a line that begins with it is no code at all
+  bool strings = true;  ///< whether what stands in double quotes is no code
 };
 
 class ProgramText {
@@ -81,7 +82,7 @@ class ProgramText {
   /// `source` must outlive this.
   ProgramText(const ProgramSource& source, CommentStyle style);
 
-  /// The text with every comment and all inside double quotes turned into spaces; bytes stand where they stood.
+  /// The text with every comment and all inside strings turned into spaces; bytes stand where they stood.
   std::string_view code() const { return code_; }
   std::string_view text() const { return source_.text(); }
   const ProgramSource& source() const { return source_; }

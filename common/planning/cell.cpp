@@ -90,9 +90,9 @@ double reach_m(const Chain& chain) {
   auto first = std::ranges::find_if(chain.joints, [](const Joint& joint) { return is_revolute(joint); });
   if (first == chain.joints.end()) first = chain.joints.begin();
   double reach = chain.tool_m.norm();
-  for (const Joint& joint : std::ranges::subrange(first, chain.joints.cend())) {
-    reach += std::abs(joint.a_m) + std::abs(joint.d_m);
-    if (!is_revolute(joint)) reach += std::max(std::abs(joint.lower), std::abs(joint.upper));
+  for (auto joint = first; joint != chain.joints.end(); ++joint) {
+    reach += std::abs(joint->a_m) + std::abs(joint->d_m);
+    if (!is_revolute(*joint)) reach += std::max(std::abs(joint->lower), std::abs(joint->upper));
   }
   return reach;
 }

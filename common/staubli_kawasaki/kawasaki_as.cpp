@@ -17,6 +17,7 @@
 
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
+#include "parsed_programs/given_numbers.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
 #include "parsed_programs/program.hpp"
@@ -58,6 +59,12 @@ class AsReader {
     for (const auto& [begin, what] : statements_.computed()) {
       note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
                           '\'' + what + "' is computed when the program runs");
+    }
+    for (const auto& [begin, joints] : statements_.block_steps()) {
+      note_unknown_motion(program_, begin, {.name = "", .place = text_.place(begin)},
+                          "the block step goes to " + joints.substr(0, 60) +
+                              ", which is not corrected; a step such as "
+                              "JMOVE #PPOINT(..) is");
     }
     statements_.note_approaches(text_, program_);
     const std::vector<std::size_t>& stopped = statements_.stopped();
@@ -104,7 +111,11 @@ class AsReader {
     Target target{.name = literal.name, .place = text_.place(literal.begin)};
     const std::size_t made = program_.targets.size();
     make_target(std::move(target), literal.list.items, literal.of_joints, Numbers::or_expressions);
-    if (program_.targets.size() == made || !literal.use) return;
+    if (program_.targets.size() == made) return;
+    // A point that is given numbers is no motion to it.
+    if (!literal.use && statements_.uses(location_key(literal.name)).empty())
+      program_.joints_lost_at.push_back(program_.targets.back().order);
+    if (!literal.use) return;
     take_uses({*literal.use}, program_.targets.back());
   }
 
@@ -174,11 +185,16 @@ class AsReader {
         text_, statements_.uses(), [&](const std::string& name) { return statements_.not_sent_to(name); }, program_);
     end_at_unknown_statements(statements_.unknown(), program_);
     std::vector<Target> targets = program_.targets, kept;
+    GivenNumbers given(text_);
+    for (const Target& target : targets) given.give(location_key(target.name), target.begin());
     std::stable_sort(targets.begin(), targets.end(),
                      [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
     for (Target& target : targets) {
       const std::string name = location_key(target.name);
-      if (!name.empty() && statements_.is_frame(name)) continue;
+      if (!name.empty() && statements_.is_frame(name)) {
+        leave_frame(target, statements_.uses(name), program_);
+        continue;
+      }
       std::string why = name.empty() ? "" : statements_.not_sent_to(name);
       if (why.empty() && target.is_pose() && !statements_.sets_configuration().empty())
         why = "the program sets the arm's configuration (" + statements_.sets_configuration() +
@@ -192,6 +208,7 @@ class AsReader {
       const bool pose = target.is_pose();
       target.frames = name.empty() ? statements_.frames_at(target.order, pose, lookup) : frames;
       std::vector<TargetUse> uses = name.empty() ? std::vector<TargetUse>{} : statements_.uses(name);
+      std::erase_if(uses, [&](const TargetUse& use) { return !given.may_be(name, target.begin(), use.begin); });
       for (TargetUse& use : uses) use.frames = statements_.frames_at(use.begin, pose, lookup);
       if (!uses.empty()) take_uses(uses, target);
       kept.push_back(std::move(target));

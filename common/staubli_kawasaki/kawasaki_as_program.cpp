@@ -15,6 +15,7 @@ namespace {
 constexpr std::array<std::string_view, 6> kConfigurations{"lefty", "righty", "above", "below", "uwrist", "dwrist"};
 
 const std::string kSystemTool = "of .SYSDATA";  ///< no location's name, for it has a blank
+const std::string kBlockTool = "block:";  ///< and the step's word for its tool; no location's name, for it has a colon
 
 /// Motions to a location; those whose names begin with J and HMOVE move joint by joint.
 bool is_motion(const std::string& word) {
@@ -33,7 +34,32 @@ bool is_sum(std::string_view argument) {
   return false;
 }
 
+/// Where the joints of a block step begin, "JOINT SPEED9 ACCU1 .. TOOL1 .. #[10,20,..]"; `end` where none stands there.
+std::size_t find_block_step(const ProgramText& text, std::size_t begin, std::size_t end) {
+  for (std::size_t at = begin; at < end && text.code()[at] != '"'; ++at) {
+    if (text.code()[at] != '#') continue;
+    const std::size_t open = text.skip_spaces(at + 1);
+    if (open < end && text.code()[open] == '[') return at;
+  }
+  return end;
+}
+
 }  // namespace
+
+/// A step that was taught by the pendant: it has its own joints and selects one of the controller's tools.
+void AsStatements::read_block_step(const ProgramText& text, std::size_t begin, std::size_t joints, std::size_t end) {
+  std::size_t first = joints;
+  block_steps_.emplace_back(begin, std::string(text.trimmed(first, end)));
+  std::string tool = kBlockTool;
+  for (std::size_t at = begin; at < joints; ++at) {
+    if (!text.begins_word(at)) continue;
+    const std::string word = text.word_at(at);
+    if (word.starts_with("tool")) tool = kBlockTool + word;
+    at = text.word_end(at) - 1;
+  }
+  tools_.insert(tool);
+  way_.tool(begin, tool);
+}
 
 void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::size_t end) {
   way_.read_line(text, begin, end);
@@ -45,6 +71,8 @@ void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::si
   const std::size_t argument = text.skip_spaces(std::min(text.word_end(begin), end));
   if (std::find(kConfigurations.begin(), kConfigurations.end(), word) != kConfigurations.end())
     sets_configuration_ = word;
+  if (const std::size_t joints = find_block_step(text, begin, end); joints < end)
+    return read_block_step(text, begin, joints, end);
   if (is_motion(word)) return read_motion(text, word, begin, end);
   if (word == "point" && argument < end) return read_point(text, argument, end);
   if (word == "call") return use_all(text, std::min(text.code().find('(', argument), end), end);
@@ -168,6 +196,8 @@ std::optional<LocationLiteral> AsStatements::literal_at(const ProgramText& text,
 
 KnownFrame AsStatements::tool_of(const std::string& word, const Lookup& lookup) const {
   if (word == "null") return {"flange", Eigen::Isometry3d::Identity(), ""};
+  if (word.starts_with(kBlockTool))
+    return {"TOOL", Eigen::Isometry3d::Identity(), "a block step selects one of the controller's tools"};
   const auto pose = word == kSystemTool ? std::nullopt : lookup.tool(word);
   return pose ? KnownFrame{word, *pose, ""} : KnownFrame::computed("TOOL");
 }
@@ -180,9 +210,13 @@ KnownFrame AsStatements::base_of(const std::string& word, const Lookup& lookup) 
           "the base is moved by BASE, and --frames gives no frame '" + word + "' that says where to"};
 }
 
+bool AsStatements::sets_tool() const {
+  return tools_.size() > 1 || (tools_.size() == 1 && !tools_.begin()->starts_with(kBlockTool));
+}
+
 StatedFrames AsStatements::frames(const Lookup& lookup) const {
   StatedFrames frames;
-  if (tools_.size() == 1) set_tool(frames, tool_of(*tools_.begin(), lookup));
+  if (tools_.size() == 1 && sets_tool()) set_tool(frames, tool_of(*tools_.begin(), lookup));
   if (tools_.size() > 1) set_tool(frames, {"TOOL", Eigen::Isometry3d::Identity(), "several tools are set by TOOL"});
   std::set<std::string> bases = bases_;
   if (system_base_ || (bases.empty() && lookup.base("base"))) bases.insert("base");
@@ -197,7 +231,9 @@ StatedFrames AsStatements::frames_at(std::size_t motion, bool of_pose, const Loo
   const auto unset = [](const std::string& what) {
     return KnownFrame{what, Eigen::Isometry3d::Identity(), what + " is set only after a motion to it"};
   };
-  if (!words.tool.unknown.empty()) {
+  if (!sets_tool()) {
+    // The controller's one tool is that of the model, as where nothing sets a tool.
+  } else if (!words.tool.unknown.empty()) {
     set_tool(held, {"TOOL", Eigen::Isometry3d::Identity(), words.tool.unknown});
   } else if (!words.tool.word.empty()) {
     set_tool(held, tool_of(words.tool.word, lookup));

@@ -42,6 +42,8 @@ class AsStatements {
   const std::vector<LocationLiteral>& literals() const { return literals_; }
   /// Where motions go to what is computed, and what that is.
   const std::vector<std::pair<std::size_t, std::string>>& computed() const { return computed_; }
+  /// The steps of block format, and their joints as written.
+  const std::vector<std::pair<std::size_t, std::string>>& block_steps() const { return block_steps_; }
   /// Where TILL may stop a motion on its way.
   const std::vector<std::size_t>& stopped() const { return stopped_; }
   /// Says where motions come near a location only, and how near.
@@ -71,6 +73,8 @@ class AsStatements {
   std::vector<TargetUse> uses(const std::string& name) const;
 
  private:
+  /// Whether the tool is another than the one that all block steps, if there are any, select.
+  bool sets_tool() const;
   KnownFrame tool_of(const std::string& word, const Lookup& lookup) const;
   KnownFrame base_of(const std::string& word, const Lookup& lookup) const;
   struct Approach {
@@ -82,13 +86,14 @@ class AsStatements {
   /// Locations that [begin, end) hands on or computes with.
   void use_all(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_motion(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end);
+  void read_block_step(const ProgramText& text, std::size_t begin, std::size_t joints, std::size_t end);
   void read_point(const ProgramText& text, std::size_t begin, std::size_t end);
   std::optional<LocationLiteral> literal_at(const ProgramText& text, std::size_t begin, std::size_t end) const;
 
   ChangedNames changes_;
   std::vector<Approach> approaches_{};
   std::vector<LocationLiteral> literals_;
-  std::vector<std::pair<std::size_t, std::string>> computed_;
+  std::vector<std::pair<std::size_t, std::string>> computed_, block_steps_;
   std::vector<std::size_t> stopped_;
   std::map<std::string, std::vector<TargetUse>> uses_;
   std::map<std::string, std::string> not_sent_to_;

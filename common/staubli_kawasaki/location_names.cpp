@@ -73,6 +73,12 @@ void note_untold_locations(const ProgramText& text, const std::map<std::string, 
   }
 }
 
+void leave_frame(const Target& target, const std::vector<TargetUse>& motions, Program& program) {
+  if (motions.empty()) return;
+  skip_target(program, target, "TOOL or BASE of this program is set to it");
+  for (const TargetUse& motion : motions) program.joints_lost_at.push_back(motion.begin);
+}
+
 void add_unknown_statement(const ProgramText& text, std::size_t statement, std::size_t begin, std::size_t end,
                            UnknownStatements& statements) {
   while (begin < end) {

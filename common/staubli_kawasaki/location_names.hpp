@@ -25,6 +25,8 @@ std::vector<std::string> location_names(const ProgramText& text, std::size_t beg
 /// nothing. A computed index may be any of an array.
 void note_untold_locations(const ProgramText& text, const std::map<std::string, std::vector<TargetUse>>& uses,
                            const std::function<std::string(const std::string&)>& why, Program& program);
+/// Says in `program` that the target is a tool or base of the program, which it stays, where motions go to it, too.
+void leave_frame(const Target& target, const std::vector<TargetUse>& motions, Program& program);
 /// Why targets are left of a program that lets sensors alter its motions.
 inline constexpr const char* kAltered =
     "the program lets motions be altered while they run (ALTER), and where it does is not followed";

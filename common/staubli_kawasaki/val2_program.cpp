@@ -197,7 +197,10 @@ void Val2Statements::complete(Program& program, const ControllerData& controller
   note_untold_locations(
       text_, uses_, [&](const std::string& name) { return changes_.why(name); }, program);
   std::erase_if(program.targets, [&](const Target& target) {
-    return std::find(tools_.begin(), tools_.end(), lower_name(target)) != tools_.end();
+    if (std::find(tools_.begin(), tools_.end(), lower_name(target)) == tools_.end()) return false;
+    const auto motions = uses_.find(lower_name(target));
+    if (motions != uses_.end()) leave_frame(target, motions->second, program);
+    return true;
   });
   for (Target& target : program.targets) {
     target.frames = stated;

@@ -5,10 +5,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
-#include <ranges>
+#include <utility>
 #include <vector>
 
 namespace demecal::inline trials {
+namespace {
+
+/// The least and the greatest of a condition, such as the payload, of the rows (at least one).
+std::pair<double, double> extremes(const std::vector<TrialRow>& rows, double TrialRow::*condition) {
+  const auto [least, most] = std::ranges::minmax_element(rows, {}, condition);
+  return {(*least).*condition, (*most).*condition};
+}
+
+}  // namespace
 
 ProjectedColumns::ProjectedColumns(const Trial& trial, const TrialFit& fit) : linear_(linearized(trial, fit)) {
   constexpr double kFullWeight = 3.0;  // deviations up to which rows count in full
@@ -80,7 +89,7 @@ Eigen::MatrixXd condition_columns(const Trial& trial, const TrialFit& fit) {
       return rows[row].sides.size() > 0 ? rows[row].sides[joint] : 0.0;
     }));
   for (const auto condition : {&TrialRow::payload_kg, &TrialRow::temperature_celsius}) {
-    const auto [least, most] = std::ranges::minmax(rows | std::views::transform(condition));
+    const auto [least, most] = extremes(rows, condition);
     if (most > least)
       parts.push_back(joint_columns(trial, fit, [&, from = least, span = most - least](std::size_t row, int) {
         return (rows[row].*condition - from) / span;
@@ -95,7 +104,7 @@ Eigen::MatrixXd condition_columns(const Trial& trial, const TrialFit& fit) {
 double most_by_conditions(const Trial& trial) {
   constexpr double kBySide = 3e-3, kPerNm = 4e-5, kPerKelvin = 1e-4, kGravity = 9.81;
   const auto span = [&](auto condition) {
-    const auto [least, most] = std::ranges::minmax(trial.rows | std::views::transform(condition));
+    const auto [least, most] = extremes(trial.rows, condition);
     return most - least;
   };
   const bool sides = std::ranges::any_of(trial.rows, [](const TrialRow& row) { return row.sides.size() > 0; });

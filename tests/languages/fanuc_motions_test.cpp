@@ -102,6 +102,16 @@ TEST(FanucMotions, ThatTouchOffsetShiftsAreLeft) {
   EXPECT_THAT(said(program), AllOf(HasSubstr("P[2]: "), HasSubstr("shifted by Touch Offset")));
 }
 
+TEST(FanucMotions, AreReadBehindAQuoteOfInches) {
+  const std::string inches[] = {" 1:  ! a 5\" pipe ;\n 2:L P[1] 9mm/sec FINE INC ;\n",
+                                " 1:L P[1:5\" up] 9mm/sec FINE INC ;\n", " 1:L P[1:\"up] 9mm/sec FINE INC ;\n"};
+  for (const std::string& instructions : inches) {
+    const Program program = read_listing(instructions, position(1));
+    EXPECT_THAT(names(program), IsEmpty()) << instructions;
+    EXPECT_THAT(said(program), HasSubstr("P[1]: a motion goes by it and not to it (INC)")) << instructions;
+  }
+}
+
 TEST(FanucMotions, ThatMayStopOnTheWayAreNoPlaceToComeFrom) {
   const auto origins = [](const std::string& skip) {
     const std::string moves = " 1:J P[1] 9% FINE ;\n 2:L P[2] 9mm/sec FINE" + skip +

@@ -125,7 +125,7 @@ TEST(Krl, ReadsTargetsAndNeitherFramesNorRelativeMotions) {
                    "LIN_REL {X 7,Y 8,Z 9,A 1,B 2,C 3}\nPTP {A1 10}\nPTP {A1 q,A2 0,A3 0,A4 0,A5 0,A6 0}\n"
                    "XP2[3]={X 1,Y 2,Z 3,A 4,B 5,C 6,S 1,T 'B000101'}\nEND\n",
                    "p", wrist_arm());
-  EXPECT_THAT(names(program), ElementsAre("XP1", "home", "", "", "XP2"));
+  EXPECT_THAT(names(program), ElementsAre("XP1", "home", "", "", "XP2[3]"));
   EXPECT_THAT(values(program.targets[0].position), ElementsAre(500, -20, 350));
   EXPECT_THAT(values(program.targets[0].orientation), ElementsAre(0, 90, -180));
   EXPECT_TRUE(*program.targets[0].hint.negative[0] && *program.targets[0].hint.negative[5]);

@@ -270,5 +270,31 @@ TEST(UntoldPlaces, AreWhereAConditionMayStopAMotionOfAs) {
   EXPECT_THAT(said_in_line(stopped, 3), IsEmpty());
 }
 
+TEST(UntoldPlaces, OfBlockStepsAreReportedAndChangeTheTool) {
+  const std::string as = ".TRANS\np 1 2 3 4 5 6\nt 0 0 50 0 0 0\n.END\n.PROGRAM a()\n TOOL t\n";
+  const std::string aside = " ACCU1 TIMER0 TOOL1 WORK0 CLAMP1 (OFF,0,0,O) OX= WX= #[1,2,3,4,5,6] ;\n";
+  for (const char* const step : {" JOINT SPEED9", " LINEAR 250.", " CIR1 SPEED9"}) {
+    const std::string text = as + step + aside + " LMOVE p\n.END\n";
+    expect_untold(WrittenIn::kawasaki_as, text, 7, "the block step goes to #[1,2,3,4,5,6], which is not corrected");
+    const Program program = read_program(WrittenIn::kawasaki_as, text, "p", wrist_arm());
+    ASSERT_THAT(program.targets, SizeIs(1));
+    EXPECT_THAT(program.targets[0].frames.unknown_tool, HasSubstr("a block step selects")) << text;
+  }
+  const std::string alone = ".TRANS\np 1 2 3 4 5 6\n.END\n.PROGRAM a()\n JOINT SPEED9" + aside + " LMOVE p\n.END\n";
+  EXPECT_EQ(read_program(WrittenIn::kawasaki_as, alone, "p", wrist_arm()).targets.at(0).frames.unknown_tool, "");
+  const std::string told = as + " LMOVE p\n PRINT \"#[1,2]\"\n.END\n";
+  EXPECT_THAT(said_in_line(read_program(WrittenIn::kawasaki_as, told, "p", wrist_arm()), 8), IsEmpty());
+}
+
+TEST(UntoldPlaces, ThatAreToolsOrBasesAreReported) {
+  const std::string as = ".TRANS\np 1 2 3 4 5 6\n.END\n.PROGRAM a()\n BASE p\n LMOVE p\n.END\n",
+                    val2 = ".LOCATIONS\np 1 0 0 0 1 0 0 0 1 1 2 3\n.END\n.PROGRAM a()\n TOOL p\n MOVES p\n.END\n";
+  for (const auto& [language, text] : {std::pair{WrittenIn::kawasaki_as, as}, std::pair{WrittenIn::val2, val2}}) {
+    const Program program = read_program(language, text, "p", wrist_arm());
+    EXPECT_THAT(said_in_line(program, 2), HasSubstr("p: TOOL or BASE of this program is set to it"));
+    EXPECT_TRUE(ends_in_line(program, text, 6));
+  }
+}
+
 }  // namespace
 }  // namespace demecal

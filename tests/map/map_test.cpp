@@ -71,6 +71,10 @@ TEST(SourceTree, GivesEveryRoomItsNamespace) {
   EXPECT_THAT(over_the_tree(check_namespace), IsEmpty());
 }
 
+TEST(SourceTree, HasNoViewsThatTheFuzzersCompilerCannotCompile) {
+  EXPECT_THAT(over_the_tree(check_views), IsEmpty());
+}
+
 TEST(SourceTree, HasShortFilesThatSayWhatTheyAreFor) {
   EXPECT_THAT(over_the_tree(check_shape), IsEmpty());
 }

@@ -43,6 +43,9 @@ Violations check_pure_headers(const Source& source);
 /// of the standard library, whose numbers differ from one library to the next.
 Violations check_pure_calls(const Source& source);
 
+/// No view of ranges: with the standard library of g++ 12, the clang of the fuzzer cannot compile any.
+Violations check_views(const Source& source);
+
 /// At most 300 lines; headers and tests begin with a // comment that says what they are for.
 Violations check_shape(const Source& source);
 

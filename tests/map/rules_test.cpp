@@ -120,6 +120,14 @@ TEST(PureCallRule, TakesNoLikenessForTheThing) {
   }
 }
 
+TEST(ViewRule, ForbidsViewsAndNoAlgorithms) {
+  for (const char* const line : {"for (int i : std::views::reverse(all))", "std::ranges::subrange(first, last)",
+                                 "auto [a, b] = std::ranges::minmax(all | std::ranges::views::transform(f));"})
+    EXPECT_THAT(check_views({"common/data/rows.cpp", line}), SizeIs(1)) << line;
+  for (const char* const line : {"std::ranges::sort(views);", "// std::views::reverse", "std::string_view text;"})
+    EXPECT_THAT(check_views({"common/data/rows.cpp", line}), IsEmpty()) << line;
+}
+
 TEST(NamespaceRule, HoldsARoomToItsOwn) {
   const auto with = [](const std::string& line) { return Source{"common/data/pose.cpp", line + "\n"}; };
   EXPECT_THAT(check_namespace(with("namespace demecal::inline data {")), IsEmpty());

@@ -42,6 +42,19 @@ Violations check_pure_calls(const Source& source) {
   return found;
 }
 
+Violations check_views(const Source& source) {
+  static const std::regex view(R"(\bstd::(ranges::)?views::\w+|\branges::(subrange|\w+_view|view_interface)\b)");
+  Violations found;
+  int number = 0;
+  for (const std::string& line : lines_of(code_of(source.text))) {
+    ++number;
+    std::smatch match;
+    if (std::regex_search(line, match, view))
+      found.push_back({source.path, number, "clang 14 cannot compile " + match.str()});
+  }
+  return found;
+}
+
 Violations check_shape(const Source& source) {
   Violations found;
   const std::size_t lines = lines_of(source.text).size();

@@ -84,6 +84,33 @@ TEST(Rapid, LeavesPointsWhereSensorsShiftTheMotion) {
               AllOf(StartsWith("left:"), HasSubstr("with \\Corr, by which sensors")));
 }
 
+TEST(Rapid, LeavesNumbersThatAreHandedToInstructionsThatAreNotFollowed) {
+  const std::string point = rapid_point("pA"),
+                    numbers = point.substr(point.find("[["), point.rfind(';') - point.find("[["));
+  const std::string joints = "[[10,-60,70,20,50,5],[9E9,9E9,9E9,9E9,9E9,9E9]]";
+  for (const std::string& handed : {numbers, joints}) {
+    const std::string weld = "ArcL " + handed + ",v9,sm1,wd1,fine,tool0\\WObj:=w1;\n";
+    EXPECT_THAT(of_rapid(weld, ""), AllOf(StartsWith("left:"), HasSubstr("handed to an instruction"))) << weld;
+    EXPECT_THAT(judged(WrittenIn::rapid, "MODULE m\nPROC main()\n" + weld + "ENDPROC\nENDMODULE\n", ""),
+                AllOf(StartsWith("left:"), HasSubstr("handed to an instruction")));
+  }
+}
+
+TEST(Rapid, ReadsMotionsThatGoOnWithTheProgram) {
+  for (const char* const option : {"\\Conc,", " \\Conc, ", ""}) {
+    const std::string one = std::string("MoveL") + (*option == '\0' ? " " : option) + "pA,v9,fine,tOne;\n";
+    EXPECT_THAT(of_rapid("MoveJ pA,v9,fine,tool0;\n" + one), HasSubstr("different tools")) << one;
+  }
+  EXPECT_THAT(of_rapid("MoveJ\\Conc,pA,v9,fine,tool0;\n"), StartsWith("corrected:"));
+}
+
+TEST(Rapid, WarnsWhereTheArmGivesWayToForces) {
+  for (const char* const statement : {"CSSAct X\\StiffnessNonDir:=50;\n", "SoftAct 1,20;\n", "FCAct tool0;\n"})
+    EXPECT_THAT(of_rapid(std::string(statement) + "MoveL pA,v9,fine,tool0;\n", ""),
+                HasSubstr("the arm gives way to forces"))
+        << statement;
+}
+
 TEST(Rapid, WarnsOfPlacesFarFromThePointThatCorrectsThem) {
   const std::string move = "MoveJ pA,v9,fine,tool0;\n";
   EXPECT_EQ(of_rapid(move + "MoveL Offs(pA,0,0,50),v9,fine,tool0;\n"), of_rapid(move));
