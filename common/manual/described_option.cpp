@@ -72,7 +72,7 @@ std::vector<DescribedOption> described_options(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     if (!option->get_group().empty()) options.push_back(describe_option(*option));
   }
-  std::ranges::stable_partition(options, &DescribedOption::positional);
+  std::stable_partition(options.begin(), options.end(), [](const DescribedOption& one) { return one.positional; });
   return options;
 }
 

@@ -13,13 +13,16 @@
 
 namespace demecal::inline monitor {
 
-// `Member` may be const: what is written is not changed.
+// `Member` may be const: what is written is not changed. The compilers of the fuzzer and of the checker deduce the
+// arguments of an aggregate by a guide alone.
 
 /// A number of more digits than some readers keep, as text; 0 is empty.
 template <class Member>
 struct AsText {
   Member& number;
 };
+template <class Member>
+AsText(Member&) -> AsText<Member>;
 
 template <class Member>
 nlohmann::ordered_json json_of(const AsText<Member>& as_text) {
@@ -39,6 +42,8 @@ template <class Member>
 struct FromOne {
   Member& place;
 };
+template <class Member>
+FromOne(Member&) -> FromOne<Member>;
 
 template <class Member>
 nlohmann::ordered_json json_of(const FromOne<Member>& from_one) {
@@ -56,6 +61,8 @@ template <class Member>
 struct Shown {
   Member& text;
 };
+template <class Member>
+Shown(Member&) -> Shown<Member>;
 
 template <class Member>
 nlohmann::ordered_json json_of(const Shown<Member>& shown) {
@@ -72,6 +79,8 @@ struct FigureOr {
   Member& figure;
   double missing = 0.0, scale = 1.0;
 };
+template <class Member>
+FigureOr(Member&, double = 0.0, double = 1.0) -> FigureOr<Member>;
 
 template <class Member>
 nlohmann::ordered_json json_of(const FigureOr<Member>& figure_or) {
@@ -88,6 +97,8 @@ struct OneOf {
   Member& value;
   const Words& words;
 };
+template <class Member, class Words>
+OneOf(Member&, const Words&) -> OneOf<Member, Words>;
 
 template <class Member, class Words>
 nlohmann::ordered_json json_of(const OneOf<Member, Words>& one_of) {

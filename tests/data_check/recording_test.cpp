@@ -80,7 +80,7 @@ TEST(Recording, JointsThatWereReadBeforeTheArmStoodAreNamed) {
 /// Each pose once.
 DataSet without_repeats(DataSet data) {
   const auto is_repeat = [](const MeasuredPose& one, const MeasuredPose& other) { return one.joints == other.joints; };
-  data.poses.erase(std::ranges::unique(data.poses, is_repeat).begin(), data.poses.end());
+  data.poses.erase(std::unique(data.poses.begin(), data.poses.end(), is_repeat), data.poses.end());
   return data;
 }
 

@@ -121,8 +121,9 @@ TEST(PureCallRule, TakesNoLikenessForTheThing) {
 }
 
 TEST(ViewRule, ForbidsViewsAndNoAlgorithms) {
-  for (const char* const line : {"for (int i : std::views::reverse(all))", "std::ranges::subrange(first, last)",
-                                 "auto [a, b] = std::ranges::minmax(all | std::ranges::views::transform(f));"})
+  for (const char* const line :
+       {"for (int i : std::views::reverse(all))", "std::ranges::subrange(first, last)", "std::ranges::unique(all);",
+        "auto [a, b] = std::ranges::minmax(all | std::ranges::views::transform(f));"})
     EXPECT_THAT(check_views({"common/data/rows.cpp", line}), SizeIs(1)) << line;
   for (const char* const line : {"std::ranges::sort(views);", "// std::views::reverse", "std::string_view text;"})
     EXPECT_THAT(check_views({"common/data/rows.cpp", line}), IsEmpty()) << line;

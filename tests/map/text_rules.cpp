@@ -43,7 +43,9 @@ Violations check_pure_calls(const Source& source) {
 }
 
 Violations check_views(const Source& source) {
-  static const std::regex view(R"(\bstd::(ranges::)?views::\w+|\branges::(subrange|\w+_view|view_interface)\b)");
+  static const std::regex view(
+      R"(\bstd::(ranges::)?views::\w+|\branges::(subrange|\w+_view|view_interface)\b)"
+      R"(|\branges::(stable_partition|partition|unique|remove|remove_if|rotate|search|equal_range)\b)");
   Violations found;
   int number = 0;
   for (const std::string& line : lines_of(code_of(source.text))) {
