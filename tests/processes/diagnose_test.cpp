@@ -207,8 +207,15 @@ TEST(Diagnose, WhatWasFoundInTheDataIsSaidWhereNoModelFitsThemEither) {
   std::istringstream poses(job.text("data/poses.csv"));
   std::string table, line;
   std::getline(poses, line);
-  for (std::size_t row = 0; table += line + '\n', std::getline(poses, line); ++row)
-    if (row % 2 == 0) line.insert(line.find(',') + 1, "9");  // a digit too many in the first joint
+  ASSERT_EQ(line.find("x_mm,y_mm,z_mm,s1"), line.size() - std::string("x_mm,y_mm,z_mm,s1,s2,s3,s4,s5,s6").size())
+      << line;
+  while (table += line + '\n', std::getline(poses, line)) {
+    std::size_t end = line.size();
+    for (int column = 0; column < 6; ++column) end = line.rfind(',', end - 1);
+    const std::size_t begin = line.rfind(',', end - 1) + 1;
+    const double z_mm = std::stod(line.substr(begin, end - begin));
+    line.replace(begin, end - begin, std::to_string(25.4 * z_mm));
+  }
   std::ofstream(job.path("data/poses.csv")) << table;
   const Ended ended = run("demecal", diagnose(job, "out", {"--force"}));
   ASSERT_EQ(ended.code, 11) << ended.err;
