@@ -124,8 +124,11 @@ class Contradictions {
 
   void add_reading(const Explanation& one, const TrialFit& fit, double as_given_m, const std::string& lead) {
     Explanation named = one;
-    if (one.kind == FindingKind::mirrored)
-      named = axes_explanation(fit.sensor_from_base.front(), data_.frame == Frame::base);
+    if (one.kind == FindingKind::mirrored) {
+      Trial mirrored = trial_;
+      one.apply(mirrored);
+      named = axes_explanation(fit_base_and_tools(mirrored).sensor_from_base.front(), data_.frame == Frame::base);
+    }
     add({.kind = named.kind,
          .joint = named.joint,
          .as_given_mm = millimetres(as_given_m),

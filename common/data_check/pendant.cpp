@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <optional>
 #include <string>
@@ -24,6 +25,7 @@
 #include "prediction/measurement.hpp"
 #include "trials/explanations.hpp"
 #include "trials/finding.hpp"
+#include "trials/sign_sets.hpp"
 #include "trials/trial_fit.hpp"
 
 namespace demecal::inline data_check {
@@ -78,21 +80,59 @@ class PendantSearch {
   void run() {
     const TrialFit placed = fit_base_and_tools(trial_);
     if (settles(placed, {})) return;
-    if (const auto best = best_explanation(trial_, placed, kPendantRounding_m)) {
-      std::vector<std::string> readings;
-      for (const Explanation& one : best->explanations) readings.push_back("It fits if " + one.clause + ".");
-      for (const Explanation& one : best->equals)
-        readings.push_back("As well, and these poses cannot tell which, it fits if " + one.clause + ".");
-      Trial read = trial_;
-      for (const Explanation& one : best->explanations) one.apply(read);
-      if (settles(fit_base_and_tools(read), readings, read.chain)) return;
-    }
+    constexpr double kSingleOnly_m = std::numeric_limits<double>::infinity();
+    const auto single = best_explanation(trial_, placed, kSingleOnly_m, true);
+    const auto signs = best_sign_set(trial_, {.zeros = false, .in_base = true});
+    if (signs && (!single || nearer(*signs, *single)) && settles(reading_of(*signs))) return;
+    if (single && settles(reading_of(*single))) return;
     if (settles_without_one()) return;
+    if (const auto set = best_sign_set(trial_, {.zeros = true, .in_base = true}); set && settles(reading_of(*set)))
+      return;
+    if (const auto several = best_explanation(trial_, placed, kPendantRounding_m, true);
+        several && settles(reading_of(*several)))
+      return;
+    if (const auto mirrored = best_explanation(trial_, placed, kSingleOnly_m);
+        mirrored && settles(reading_of(*mirrored)))
+      return;
     if (try_numbers({.registration = true, .tool = true, .joint_offset = true}, false)) return;
     try_numbers({.registration = true, .tool = true, .joint_offset = true, .geometry = true}, true);
   }
 
  private:
+  /// Poses read otherwise, with the sentences that say how.
+  struct Reading {
+    Trial trial;
+    std::vector<std::string> sentences;
+  };
+
+  Reading reading_of(const BestExplanation& best) const {
+    Reading reading{trial_, {}};
+    for (const Explanation& one : best.explanations) {
+      one.apply(reading.trial);
+      reading.sentences.push_back("It fits if " + one.clause + ".");
+    }
+    for (const Explanation& one : best.equals)
+      reading.sentences.push_back("As well, and these poses cannot tell which, it fits if " + one.clause + ".");
+    return reading;
+  }
+
+  Reading reading_of(const Explanation& one) const { return reading_of(BestExplanation{{one}, {}}); }
+
+  /// Whether a set of signs leaves tool and base nearer to their description than a single reading that agrees.
+  bool nearer(const Explanation& signs, const BestExplanation& single) const {
+    constexpr double kNearer_m = 5e-3;
+    const auto distance_m = [&](const Trial& read) {
+      const TrialFit fit = fit_base_and_tools(read);
+      return largest(fit.error_m) > kPendantRounding_m ? std::numeric_limits<double>::infinity()
+                                                       : distance_from_description_m(read, fit, true);
+    };
+    return distance_m(reading_of(signs).trial) + kNearer_m < distance_m(reading_of(single).trial);
+  }
+
+  bool settles(const Reading& reading) {
+    return settles(fit_base_and_tools(reading.trial), reading.sentences, reading.trial.chain);
+  }
+
   bool settles(const TrialFit& fit, std::vector<std::string> readings) {
     return settles(fit, std::move(readings), data_.robot.chain);
   }

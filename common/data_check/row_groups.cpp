@@ -82,6 +82,7 @@ class WrongRows {
       if (!best || reading.median_m < 0.5 * best->median_m) best = std::move(reading);
     };
     for (const Explanation& one : whole_set_explanations(whole_.chain)) take(reading_of(one));
+    for (const Explanation& one : column_unit_explanations()) take(reading_of(one));
     for (const Explanation& one : axes_explanations()) take(reading_of(one));
     for (const Explanation& one : target_explanations()) take(reading_of(one));
     for (int shift = -kMostGroupShift; are_many() && shift <= kMostGroupShift; ++shift)

@@ -12,6 +12,7 @@
 #include "data/spread_poses.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
+#include "trials/sign_sets.hpp"
 
 namespace demecal::inline trials {
 namespace {
@@ -68,12 +69,6 @@ Explanation all_angles(double factor, const std::string& units) {
           }};
 }
 
-Explanation position_unit(double factor, const std::string& words) {
-  return {FindingKind::unit, -1, words, [factor](Trial& trial) {
-            for (TrialRow& row : trial.rows) row.point_m *= factor;
-          }};
-}
-
 Explanation other_convention(Convention given) {
   const bool standard = given == Convention::standard_dh;
   return {FindingKind::convention, -1,
@@ -115,19 +110,7 @@ std::vector<Explanation> joint_explanations(const Chain& chain) {
 std::vector<Explanation> unit_explanations(const Chain& chain) {
   std::vector<Explanation> all{all_angles(degrees(1.0), "radians, not in degrees"),
                                all_angles(radians(1.0), "degrees, not in radians")};
-  for (const auto& [factor, words] : std::initializer_list<std::pair<double, const char*>>{
-           {1e3,
-            "positions are in metres where millimetres are stated (or the robot's lengths are 1000 times too long)"},
-           {1e-3, "positions are in millimetres where metres are stated (or the robot's lengths are in metres)"},
-           {25.4, "positions are in inches where millimetres are stated"},
-           {0.0254, "positions are in inches where metres are stated"},
-           {1 / 25.4, "positions are in millimetres, and the robot's lengths in inches"},
-           {10.0, "positions are in centimetres where millimetres are stated"},
-           {0.01, "positions are in centimetres where metres are stated"},
-           {0.1, "positions are in millimetres, and the robot's lengths in centimetres"},
-           {304.8, "positions are in feet where millimetres are stated"},
-           {0.3048, "positions are in feet where metres are stated"}})
-    all.push_back(position_unit(factor, words));
+  std::ranges::move(position_unit_explanations(), std::back_inserter(all));
   for (int joint = 0; joint < chain.size(); ++joint) {
     const bool angle = is_revolute(chain, joint);
     all.push_back(joint_unit(joint, angle ? degrees(1.0) : 1e3, angle ? "radians" : "metres"));
@@ -230,6 +213,16 @@ Tried greedily_extended(const Trial& trial, Tried best) {
   return best;
 }
 
+/// A mirrored frame may be signs of several joints: that which leaves the described tools alone comes first.
+void set_signs_beside(const Trial& trial, const Explanation& signs, Tried& best, std::vector<Explanation>& equals) {
+  Tried tried = attempt(trial, {signs});
+  tried.fit = fit_arm(tried.trial, tried.fit);
+  if (tried.fit.median_m > kEqual * best.fit.median_m) return;
+  if (tool_change_m(tried) > tool_change_m(best) - kToolDifference_m) return equals.push_back(signs);
+  equals.insert(equals.begin(), best.explanations.front());
+  best = std::move(tried);
+}
+
 }  // namespace
 
 std::vector<Explanation> whole_set_explanations(const Chain& chain) {
@@ -247,9 +240,13 @@ std::vector<Explanation> whole_set_explanations(const Chain& chain) {
   return all;
 }
 
-std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialFit& placed, double good_m) {
+std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialFit& placed, double good_m,
+                                                bool right_handed) {
   std::vector<Tried> all;
-  for (const Explanation& one : whole_set_explanations(trial.chain)) {
+  std::vector<Explanation> readings = whole_set_explanations(trial.chain);
+  std::ranges::move(column_unit_explanations(), std::back_inserter(readings));
+  for (const Explanation& one : readings) {
+    if (right_handed && one.kind == FindingKind::mirrored) continue;
     all.push_back(attempt(trial, {one}));
     all.back().trial.rows.shrink_to_fit();
   }
@@ -257,8 +254,13 @@ std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialF
   const std::size_t chosen = likeliest(all);
   std::vector<Explanation> equals = equals_of(all, chosen);
   Tried best = all[chosen];
+  const bool mirrors = best.explanations.front().kind == FindingKind::mirrored;
+  const auto signs = mirrors || best.fit.median_m > good_m ? best_sign_set(trial, {}) : std::nullopt;
+  if (mirrors && signs) set_signs_beside(trial, *signs, best, equals);
   if (best.fit.median_m > good_m) {
-    for (const std::vector<Explanation>& start : {best.explanations, best_pair(trial)}) {
+    std::vector<std::vector<Explanation>> starts{best.explanations, best_pair(trial)};
+    if (signs) starts.push_back({*signs});
+    for (const std::vector<Explanation>& start : starts) {
       Tried tried = greedily_extended(trial, attempt(trial, start));
       tried.fit = fit_arm(tried.trial, tried.fit);
       if (tried.fit.median_m >= 0.5 * best.fit.median_m) continue;

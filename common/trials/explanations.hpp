@@ -30,6 +30,12 @@ struct Explanation {
 /// before: the likelier of those that can mean the same come first.
 std::vector<Explanation> whole_set_explanations(const Chain& chain);
 
+/// Positions in another unit of length than is stated, or than the robot's lengths are in.
+std::vector<Explanation> position_unit_explanations();
+
+/// The same of x, y or z alone.
+std::vector<Explanation> column_unit_explanations();
+
 /// An explanation (or several together) and how well the arm fits with it.
 struct BestExplanation {
   std::vector<Explanation> explanations;
@@ -37,10 +43,12 @@ struct BestExplanation {
   std::vector<Explanation> equals{};  ///< others, each by itself, that fit as well: the points cannot tell
 };
 
-/// The explanation by which the trial fits best; of equals the first. Of those that leave more than `good_m` at the
-/// median, pairs of joint explanations and, one after the other, up to four are tried too. `placed`: the trial's own
-/// fit of base and tools. Nothing where none lowers its median.
-std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialFit& placed, double good_m);
+/// The explanation, units of single columns included, by which the trial fits best; of equals the first. Of those that
+/// leave more than `good_m` at the median, pairs of joint explanations, sets of signs and, one after the other, up to
+/// four are tried too. `placed`: the trial's own fit of base and tools. Sets of signs are held against mirrored
+/// positions, which are none of points in a `right_handed` frame. Nothing where none lowers its median.
+std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialFit& placed, double good_m,
+                                                bool right_handed = false);
 
 /// How a mirrored or exchanged pair of axes reads, by where the base then stands: `sensor_from_base` is that of a fit
 /// to points whose y is negated. In a frame that is the base's own, `is_base`, the axes can be named.

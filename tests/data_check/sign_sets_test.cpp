@@ -1,0 +1,104 @@
+// Joints of which several count the other way, and single columns in another unit: both are named, the described tool
+// left as it is, and no frame of a controller is taken for a left-handed one.
+#include "trials/sign_sets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "data_check/pendant.hpp"
+#include "kinematics/forward.hpp"
+#include "kinematics/random_arm.hpp"
+#include "random/random_stream.hpp"
+#include "trials/explanations.hpp"
+
+namespace demecal {
+namespace {
+
+Chain wrist_arm() {
+  constexpr double kRight = std::numbers::pi / 2;
+  const auto link = [](double alpha_rad, double a_m, double d_m) {
+    Joint joint;
+    joint.alpha_rad = alpha_rad;
+    joint.a_m = a_m;
+    joint.d_m = d_m;
+    joint.lower = -2.6;
+    joint.upper = 2.6;
+    return joint;
+  };
+  return {Convention::standard_dh,
+          {link(-kRight, 0.15, 0.48), link(0, 0.6, 0), link(-kRight, 0.12, 0), link(kRight, 0, 0.64),
+           link(-kRight, 0, 0), link(0, 0, 0.2)},
+          {0.04, 0.025, 0.12}};
+}
+
+/// What a controller shows that counts as `factors` and then `zeros_deg` say.
+DataSet shown(const std::vector<double>& factors, const std::vector<double>& zeros_deg, int poses = 16) {
+  RandomStream stream{3303};
+  DataSet data;
+  data.robot.chain = wrist_arm();
+  data.frame = Frame::base;
+  data.file = "pendant.csv";
+  for (int i = 0; i < poses; ++i) {
+    MeasuredPose pose;
+    pose.joints = random_joints(stream, data.robot.chain);
+    const Eigen::Vector3d point = forward(data.robot.chain, pose.joints) * data.robot.chain.tool_m;
+    pose.position_m = point.unaryExpr([](double value) { return 1e-5 * std::round(value / 1e-5); });
+    for (Eigen::Index joint = 0; joint < 6; ++joint) {
+      const auto at = static_cast<std::size_t>(joint);
+      pose.joints[joint] = (pose.joints[joint] - zeros_deg[at] * std::numbers::pi / 180.0) * factors[at];
+    }
+    pose.pose_id = std::to_string(i + 1);
+    data.poses.push_back(std::move(pose));
+  }
+  return data;
+}
+
+const std::vector<double> kNoZeros(6, 0.0);
+
+TEST(PendantSigns, SeveralAreNamedWithTheDescribedTool) {
+  struct Case {
+    std::vector<double> factors, zeros_deg;
+    std::string clause;
+  };
+  for (const Case& one : {Case{{-1, 1, 1, -1, 1, -1}, kNoZeros, "joints 1, 4 and 6 are taken with the other sign."},
+                          Case{{1, -1, -1, 1, -1, 1}, kNoZeros, "joints 2, 3 and 5 are taken with the other sign."},
+                          Case{{-1, 1, 1, 1, 1, -1}, kNoZeros, "joints 1 and 6 are taken with the other sign."},
+                          Case{{1, -1, -1, 1, -1, 1},
+                               {0, -90, 90, 0, 0, 0},
+                               "joints 2, 3 and 5 are taken with the other sign, and then -90 deg are added to joint 2 "
+                               "and +90 deg are added to joint 3."}}) {
+    const PendantComparison comparison = compare_with_pendant(shown(one.factors, one.zeros_deg));
+    EXPECT_TRUE(comparison.explained) << one.clause;
+    ASSERT_EQ(comparison.findings.size(), 1U) << ::testing::PrintToString(comparison.findings);
+    EXPECT_EQ(comparison.findings.front(), "It fits if " + one.clause);
+  }
+}
+
+TEST(PendantSigns, AColumnInAnotherUnitIsNamed) {
+  DataSet data = shown({1, 1, 1, 1, 1, 1}, kNoZeros);
+  for (MeasuredPose& pose : data.poses) pose.position_m->x() *= 1e3;
+  const PendantComparison comparison = compare_with_pendant(data);
+  ASSERT_FALSE(comparison.findings.empty());
+  EXPECT_EQ(comparison.findings.front(),
+            "It fits if the column x of the positions alone is in millimetres where metres are stated.");
+}
+
+TEST(ExplanationSigns, StandBesideAMirroredFrameAndBeforeItWhereTheyKeepTheTool) {
+  const DataSet data = shown({-1, 1, 1, -1, 1, -1}, kNoZeros, 30);
+  Trial trial{data.robot.chain, {data.robot.chain.tool_m}, {}, 1};
+  for (std::size_t i = 0; i < data.poses.size(); ++i)
+    trial.rows.push_back({data.poses[i].joints, *data.poses[i].position_m, 0, 0, i});
+  const auto best = best_explanation(trial, fit_base_and_tools(trial), 1e-3);
+  ASSERT_TRUE(best);
+  ASSERT_EQ(best->explanations.size(), 1U);
+  EXPECT_EQ(best->explanations.front().clause, "joints 1, 4 and 6 are taken with the other sign");
+  ASSERT_FALSE(best->equals.empty());
+  EXPECT_EQ(best->equals.front().kind, FindingKind::mirrored);
+}
+
+}  // namespace
+}  // namespace demecal
