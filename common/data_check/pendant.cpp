@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "data_check/other_number.hpp"
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/angles.hpp"
@@ -72,6 +73,9 @@ std::vector<std::string> tool_and_base(const TrialFit& fit, const Chain& chain) 
   return sentences;
 }
 
+constexpr const char* kOtherZeros = "Zeros of joints are elsewhere:";
+constexpr const char* kOtherLinks = "The arm has other links than described:";
+
 class PendantSearch {
  public:
   PendantSearch(const DataSet& data, PendantComparison& result)
@@ -85,7 +89,7 @@ class PendantSearch {
     const auto signs = best_sign_set(trial_, {.zeros = false, .in_base = true});
     if (signs && (!single || nearer(*signs, *single)) && settles(reading_of(*signs))) return;
     if (single && settles(reading_of(*single))) return;
-    if (settles_without_one()) return;
+    if (settles_without_one() || settles_with_one_number()) return;
     if (const auto set = best_sign_set(trial_, {.zeros = true, .in_base = true}); set && settles(reading_of(*set)))
       return;
     if (const auto several = best_explanation(trial_, placed, kPendantRounding_m, true);
@@ -166,6 +170,15 @@ class PendantSearch {
                                      triple(predicted_point(fit, trial_.rows[*odd])), triple(*pose.position_m))});
   }
 
+  bool settles_with_one_number() {
+    const std::vector<OtherNumber> numbers = numbers_that_explain(trial_, kPendantRounding_m);
+    if (numbers.empty()) return false;
+    std::vector<std::string> readings{numbers.front().is_zero ? kOtherZeros : kOtherLinks, numbers.front().sentence};
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+      readings.push_back("As well, and these poses cannot tell which: " + numbers[i].sentence);
+    return settles(numbers.front().fit, std::move(readings));
+  }
+
   /// Whether other numbers of the links make it fit; those that differ most are named.
   bool try_numbers(const DeclaredModel& declared, bool links) {
     constexpr std::size_t kMostNamed = 6;
@@ -190,7 +203,7 @@ class PendantSearch {
     }
     if (named.empty()) return false;
     std::ranges::sort(named, [](const auto& one, const auto& other) { return one.first > other.first; });
-    result_.findings.push_back(links ? "The arm has other links than described:" : "Zeros of joints are elsewhere:");
+    result_.findings.push_back(links ? kOtherLinks : kOtherZeros);
     for (std::size_t i = 0; i < std::min(kMostNamed, named.size()); ++i)
       result_.findings.push_back(std::move(named[i].second));
     result_.explained = true;

@@ -138,6 +138,15 @@ TEST(Pendant, NamesALinkOfAnotherLength) {
   EXPECT_TRUE(says(comparison, "joint 2 a_mm differs by -100")) << ::testing::PrintToString(comparison.findings);
 }
 
+TEST(Pendant, NamesALinkOfAnotherLengthByFewPoses) {
+  for (const std::size_t joint : {1U, 2U, 3U}) {
+    const PendantComparison comparison = compared([&](Chain& chain) { chain.joints[joint].a_m -= 0.01; }, 10);
+    EXPECT_TRUE(comparison.explained) << joint;
+    EXPECT_TRUE(says(comparison, "joint " + std::to_string(joint + 1) + " a_mm differs by"))
+        << ::testing::PrintToString(comparison.findings);
+  }
+}
+
 TEST(Pendant, NamesAJointThatMovesWithTheOneBefore) {
   DataSet data = read_off(elbow(), elbow(), 14);
   for (MeasuredPose& pose : data.poses) pose.joints[2] += pose.joints[1];
