@@ -25,9 +25,9 @@ inline constexpr std::size_t kFewestPendantPoses = 6;
 
 /// `data` holds joints and the positions that the controller states for them in its base frame: numbers of its own
 /// kinematics, so that a right description agrees with them to their rounding. Where it does not, the simplest change
-/// that does is named: the tool point or the base frame alone; joints' signs, exchanges, sums, the convention, units
-/// and mirrored axes, as for measured data; a single pose that was not read off as it stands; zeros of joints; link
-/// lengths. With fewer than kFewestPendantPoses only errors are told, and that.
+/// that does is named: the tool point or the base frame alone; joints' signs, exchanges, sums, the convention, units,
+/// signs of several joints and mirrored axes last of these; a single pose that was not read off as it stands; one
+/// length or angle; zeros of joints; link lengths. With fewer than kFewestPendantPoses only errors are told, and that.
 PendantComparison compare_with_pendant(const DataSet& data);
 
 }  // namespace demecal::inline data_check
