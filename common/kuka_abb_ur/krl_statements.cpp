@@ -32,8 +32,8 @@ std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::siz
 std::pair<std::string, std::string> krl_point_name(std::string_view name) {
   const std::size_t open = std::min(name.find('['), name.size());
   std::string stem = lower_case(name.substr(0, open)), index(name.substr(open));
-  std::erase_if(stem, [](char letter) { return letter == ' ' || letter == '\t'; });
-  std::erase_if(index, [](char letter) { return letter == ' ' || letter == '\t'; });
+  for (std::string* const part : {&stem, &index})
+    std::erase_if(*part, [](char letter) { return letter == ' ' || letter == '\t'; });
   if (index.find_first_not_of("0123456789,[]") != std::string::npos) index.clear();
   return {stem, index};
 }

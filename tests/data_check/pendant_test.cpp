@@ -8,30 +8,13 @@
 #include <functional>
 #include <numbers>
 
+#include "elbow_arm.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
 namespace {
-
-/// A 6-joint elbow arm with offsets everywhere.
-Chain elbow() {
-  constexpr double kRight = std::numbers::pi / 2;
-  const auto link = [](double alpha_rad, double a_m, double d_m) {
-    Joint joint;
-    joint.alpha_rad = alpha_rad;
-    joint.a_m = a_m;
-    joint.d_m = d_m;
-    joint.lower = -2.6;
-    joint.upper = 2.6;
-    return joint;
-  };
-  return {Convention::standard_dh,
-          {link(-kRight, 0.15, 0.48), link(0, 0.6, 0), link(-kRight, 0.12, 0), link(kRight, 0, 0.64),
-           link(-kRight, 0, 0), link(0, 0, 0.2)},
-          {0.04, 0.01, 0.12}};
-}
 
 /// What a controller of `truth` shows at joints drawn at random, to a hundredth of a millimetre and a thousandth of a
 /// degree; the description is the data set's robot.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "data_check/pendant.hpp"
+#include "elbow_arm.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
 #include "random/random_stream.hpp"
@@ -18,28 +19,11 @@
 namespace demecal {
 namespace {
 
-Chain wrist_arm() {
-  constexpr double kRight = std::numbers::pi / 2;
-  const auto link = [](double alpha_rad, double a_m, double d_m) {
-    Joint joint;
-    joint.alpha_rad = alpha_rad;
-    joint.a_m = a_m;
-    joint.d_m = d_m;
-    joint.lower = -2.6;
-    joint.upper = 2.6;
-    return joint;
-  };
-  return {Convention::standard_dh,
-          {link(-kRight, 0.15, 0.48), link(0, 0.6, 0), link(-kRight, 0.12, 0), link(kRight, 0, 0.64),
-           link(-kRight, 0, 0), link(0, 0, 0.2)},
-          {0.04, 0.025, 0.12}};
-}
-
 /// What a controller shows that counts as `factors` and then `zeros_deg` say.
 DataSet shown(const std::vector<double>& factors, const std::vector<double>& zeros_deg, int poses = 16) {
   RandomStream stream{3303};
   DataSet data;
-  data.robot.chain = wrist_arm();
+  data.robot.chain = elbow();
   data.frame = Frame::base;
   data.file = "pendant.csv";
   for (int i = 0; i < poses; ++i) {

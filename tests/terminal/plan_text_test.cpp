@@ -16,8 +16,7 @@ using ::testing::Not;
 
 std::string numbered(const std::string& what, int number) {
   return what + " " + std::to_string(number) +
-         " is a sentence that takes more than one line of a terminal, as such "
-         "sentences usually do.";
+         " is a sentence that takes more than one line of a terminal, as such sentences usually do.";
 }
 
 TEST(PlanText, FitsOneScreenHoweverMuchThereIsToSay) {
