@@ -67,7 +67,9 @@ TEST(GivenNumbers, AreNoMotionByThemselves) {
   const auto lost = [](WrittenIn language, const std::string& text) {
     const Program program = read_program(language, text, "p", wrist_arm());
     for (const Target& target : program.targets) {
-      if (target.is_pose()) EXPECT_THAT(program.joints_lost_at, Contains(target.order)) << text;
+      if (target.is_pose()) {
+        EXPECT_THAT(program.joints_lost_at, Contains(target.order)) << text;
+      }
     }
   };
   lost(WrittenIn::krl, "DEF m()\nPTP {A1 1,A2 2,A3 3,A4 4,A5 5,A6 6}\nXA=" + kKrlPose + "END\n");
