@@ -214,7 +214,8 @@ Eigen::MatrixXd of_unit_rows(const NoiseRows& rows, const std::vector<std::size_
 }
 
 /// Whether even drift, which is a cause, is what goes by the order of measuring rather than slow noise that neighbours
-/// share: each in place of the other, beside what joints scatter. Either is as large as makes the residuals likeliest.
+/// share: each in place of the other, beside what joints scatter, and as large as makes the residuals likeliest. Drift
+/// has to be likelier by what any component costs.
 bool drifts_evenly(const NoiseRows& rows, const std::vector<std::size_t>& poses, std::array<double, 3> variances) {
   if (rows.even_drift.cols() == 0) return false;
   RestrictedLikelihood likelihood(rows, poses, RestrictedLikelihood::EvenDrift::not_fitted);
@@ -237,7 +238,7 @@ bool drifts_evenly(const NoiseRows& rows, const std::vector<std::size_t>& poses,
   if (without - even <= 2.0 * kLikelierInOrder) return false;
   return std::ranges::all_of(std::span(kCorrelations).last(kSlow), [&](double correlation) {
     likelihood.set_correlation(correlation);
-    return even < least();
+    return even + 2.0 * kLikelier < least();
   });
 }
 
