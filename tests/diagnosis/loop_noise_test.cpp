@@ -136,7 +136,7 @@ TEST(ClosedLoopNoise, EvenDriftInTimeIsNamed) {
 
 /// Slow noise is a rival of what heat does, not of a straight line that is likelier than it.
 TEST(ClosedLoopNoise, EvenDriftInTimeIsNamedWhereTemperaturesVary) {
-  const Drifting found = looked_for_drift({1.6e-4, -2.4e-4, 2e-4}, true);
+  const Drifting found = looked_for_drift({2e-4, -3e-4, 2.5e-4}, true);
   EXPECT_EQ(found.named, kArms);
   EXPECT_LT(found.after, 1.6);
 }
