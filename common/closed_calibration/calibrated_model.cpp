@@ -46,7 +46,7 @@ double row_variance(const Projection& projection) {
 /// nothing tells, and of contacts, whose places move with the arm.
 double arm_scatter_m(const DiagnosisProblem& problem, const Linearization& linearization, const DiagnosedModel& model) {
   const DataSet& data = problem.data;
-  const auto noise = has_contacts(data) ? std::nullopt : noise_shown(problem, linearization, model.smooth);
+  const auto noise = has_contacts(data) ? std::nullopt : noise_shown(problem, linearization, model);
   if (!noise || !(model.scales[kPosition] > 0.0)) return 0.0;
   const ResidualField& field = linearization.fitted;
   double squares = 0.0, poses = 0.0;

@@ -202,6 +202,46 @@ class Components {
   double least_, cost_of_shares_ = 0.0;
 };
 
+/// Columns of even drift over some poses, each as large over the rows as independent noise.
+Eigen::MatrixXd of_unit_rows(const NoiseRows& rows, const std::vector<std::size_t>& poses) {
+  std::vector<Eigen::Index> taken;
+  for (const std::size_t pose : poses)
+    for (Eigen::Index row = rows.first_row[pose]; row < rows.first_row[pose + 1]; ++row) taken.push_back(row);
+  Eigen::MatrixXd columns = rows.even_drift(taken, Eigen::all);
+  const double root_rows = std::sqrt(static_cast<double>(columns.rows()));
+  for (auto column : columns.colwise()) column *= root_rows / std::max(column.norm(), 1e-300);
+  return columns;
+}
+
+/// Whether even drift, which is a cause, is what goes by the order of measuring rather than slow noise that neighbours
+/// share: each in place of the other, beside what joints scatter, and as large as makes the residuals likeliest. Drift
+/// has to be likelier by what any component costs.
+bool drifts_evenly(const NoiseRows& rows, const std::vector<std::size_t>& poses, std::array<double, 3> variances) {
+  if (rows.even_drift.cols() == 0) return false;
+  RestrictedLikelihood likelihood(rows, poses, RestrictedLikelihood::EvenDrift::not_fitted);
+  const auto least = [&] {
+    const auto value_at = [&](double variance) {
+      variances[RestrictedLikelihood::order] = variance;
+      return likelihood.minus_twice_log(variances);
+    };
+    return value_at(likeliest_variance(value_at));
+  };
+  variances[RestrictedLikelihood::order] = 0.0;
+  const double without = likelihood.minus_twice_log(variances);
+  constexpr Eigen::Index kShifts = 3;  ///< the first columns: a base may creep without turning, as slow noise does
+  const Eigen::MatrixXd drift = of_unit_rows(rows, poses);
+  double even = std::numeric_limits<double>::infinity();
+  for (const Eigen::Index count : {std::min(kShifts, drift.cols()), drift.cols()}) {
+    likelihood.set_in_order(drift.leftCols(count));
+    even = std::min(even, least());
+  }
+  if (without - even <= 2.0 * kLikelierInOrder) return false;
+  return std::ranges::all_of(std::span(kCorrelations).last(kSlow), [&](double correlation) {
+    likelihood.set_correlation(correlation);
+    return even + 2.0 * kLikelier < least();
+  });
+}
+
 }  // namespace
 
 NoiseEstimate estimate_noise(const NoiseRows& rows) {
@@ -215,7 +255,7 @@ NoiseEstimate estimate_noise(const NoiseRows& rows) {
   if (likelihood.has(RestrictedLikelihood::repeats)) components.estimate(RestrictedLikelihood::repeats, kLikelier);
   double order_nats = kLikelierInOrder;
   if (likelihood.neighbourhood() > kInOrder) components.estimate_order(kCorrelations, order_nats);
-  if (rows.drift_is_rival && components.correlation == 0.0) {
+  if (rows.drift_is_rival && components.correlation == 0.0 && !drifts_evenly(rows, poses, components.variances)) {
     order_nats = 0.0;
     components.estimate_order(std::span(kCorrelations).last(kSlow), order_nats);
   }

@@ -117,6 +117,18 @@ RowMatrix even_drift(const DiagnosisProblem& problem, const ResidualField& field
   return result;
 }
 
+/// Among the columns of the model's numbers, those of effects that the model holds and that go with time.
+std::vector<Eigen::Index> held_drift(const Linearization& linearization, const CorrectedRobot& robot) {
+  std::vector<Eigen::Index> held;
+  for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
+    const ParameterId& id = linearization.ids[i];
+    if (id.kind != ParameterId::Kind::effect) continue;
+    if (law_of(robot.effects[static_cast<std::size_t>(id.index)]).prerequisite() == Circumstance::time)
+      held.push_back(static_cast<Eigen::Index>(i));
+  }
+  return held;
+}
+
 /// Whether an arm and an instrument may be as noisy: else what the model lacks is taken for noise.
 bool is_noise(const NoiseEstimate& noise, const RowScales& scales) {
   constexpr double kWorstJoint_rad = 1e-3, kWorstShared_m = 5e-3;
@@ -128,19 +140,29 @@ bool is_noise(const NoiseEstimate& noise, const RowScales& scales) {
 }  // namespace
 
 std::optional<NoiseEstimate> noise_shown(const DiagnosisProblem& problem, const Linearization& linearization,
-                                         const SmoothCorrections& smooth) {
+                                         const DiagnosedModel& model) {
+  const SmoothCorrections& smooth = model.smooth;
   const RowsTaken taken(linearization.fitted);
   if (taken.size() == 0) return std::nullopt;
   const RowMatrix columns = beside(linearization.fitted.declared, smooth.columns(linearization.fitted));
-  const std::vector<Eigen::Index> moving = movable_columns(linearization, smooth);
+  std::vector<Eigen::Index> moving = movable_columns(linearization, smooth);
+  Eigen::VectorXd residual = linearization.fitted.residual + at_rest(columns, moving, smooth);
+  // Drift that the model holds is judged beside slow noise as if it had not been found yet.
+  const std::vector<Eigen::Index> held = held_drift(linearization, model.robot);
+  for (const Eigen::Index column : held) {
+    std::erase(moving, column);
+    residual += columns.col(column) * parameter_value(model.robot, linearization.ids[static_cast<std::size_t>(column)]);
+  }
+  const RowMatrix drift = beside(even_drift(problem, linearization.fitted), columns(Eigen::all, held));
   NoiseRows rows{
-      .columns = taken.select(beside(columns(Eigen::all, moving), even_drift(problem, linearization.fitted))),
-      .residual = taken.select(linearization.fitted.residual + at_rest(columns, moving, smooth)),
+      .columns = taken.select(columns(Eigen::all, moving)),
+      .residual = taken.select(residual),
       .joint_motions = taken.select(linearization.fitted.motions(Eigen::all, linearization.fitted.scattering)),
       .first_row = {0},
       .group = {},
       .order = {},
-      .drift_is_rival = heat_varies(linearization.fitted)};
+      .drift_is_rival = heat_varies(linearization.fitted),
+      .even_drift = taken.select(drift)};
   for (const std::size_t pose : taken.poses) {
     rows.first_row.push_back(rows.first_row.back() + linearization.fitted.rows_of_pose(pose));
     rows.group.push_back(linearization.fitted.group[pose]);
@@ -151,7 +173,7 @@ std::optional<NoiseEstimate> noise_shown(const DiagnosisProblem& problem, const 
 
 DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model) {
   const Linearization linearization = linearize(problem, model);
-  const std::optional<NoiseEstimate> noise = noise_shown(problem, linearization, model.smooth);
+  const std::optional<NoiseEstimate> noise = noise_shown(problem, linearization, model);
   if (!noise || !is_noise(*noise, model.scales)) return model;
   model.noise = noise->model;
   model.noise.fast = unfollowed_variance(model.noise, linearization.fitted.poses);

@@ -23,6 +23,7 @@ struct NoiseRows {
   std::vector<std::size_t> group;       ///< per pose: repeats of one pose have the same
   std::vector<double> order;            ///< per pose: its place in the order of measuring
   bool drift_is_rival = false;          ///< of what is asked: what neighbours share counts however little shows it
+  RowMatrix even_drift;                 ///< rows x numbers that count as fitted; as a rival, it may be likelier
 };
 
 struct NoiseEstimate {
@@ -39,7 +40,9 @@ NoiseEstimate estimate_noise(const NoiseRows& rows);
 /// Minus twice the restricted log-likelihood of components of variance, up to a constant, over some of the poses.
 class RestrictedLikelihood {
  public:
-  RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses);
+  enum class EvenDrift { fitted, not_fitted };
+  RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses,
+                       EvenDrift drift = EvenDrift::fitted);
 
   Eigen::Index freedom() const { return freedom_; }
   enum Component { joints, repeats, order };
@@ -50,6 +53,8 @@ class RestrictedLikelihood {
   /// Mean variance of a row per rad^2 of the joints' scatter.
   double per_joint_square() const { return per_joint_square_; }
   void set_correlation(double from_pose_to_pose);
+  /// What goes by the order of measuring is then any sum of some columns, in place of what neighbours share.
+  void set_in_order(const Eigen::MatrixXd& columns);
   /// How much of the joints' variance each of them has; one of all at first.
   void set_joint_shares(const Eigen::VectorXd& shares);
   const Eigen::VectorXd& joint_shares() const { return joint_shares_; }
@@ -86,7 +91,7 @@ class RestrictedLikelihood {
 
 /// The same of the residuals over the fitted poses of a model that has no noise; nothing where no pose takes part.
 std::optional<NoiseEstimate> noise_shown(const DiagnosisProblem& problem, const Linearization& linearization,
-                                         const SmoothCorrections& smooth);
+                                         const DiagnosedModel& model);
 
 /// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show. Poses
 /// far out have no part in it. Smooth terms count whether they were chosen or not, slow ones first, as many as leave

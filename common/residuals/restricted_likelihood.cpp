@@ -29,7 +29,8 @@ Eigen::MatrixXd product_with_itself(const Eigen::Ref<const Eigen::MatrixXd>& a) 
 
 }  // namespace
 
-RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses) {
+RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vector<std::size_t>& poses,
+                                           EvenDrift drift) {
   std::vector<Eigen::Index> taken;
   for (const std::size_t pose : poses) {
     first_row_.push_back(static_cast<Eigen::Index>(taken.size()));
@@ -38,7 +39,9 @@ RestrictedLikelihood::RestrictedLikelihood(const NoiseRows& rows, const std::vec
   }
   rows_ = std::ssize(taken);
   first_row_.push_back(rows_);
-  const Eigen::MatrixXd model = rows.columns(taken, Eigen::all);
+  const bool drifts = drift == EvenDrift::fitted && rows.even_drift.cols() > 0;
+  const RowMatrix columns = drifts ? beside(rows.columns, rows.even_drift) : rows.columns;
+  const Eigen::MatrixXd model = columns(taken, Eigen::all);
   const Eigen::VectorXd values = rows.residual(taken);
   if (model.cols() > 0) {
     const Eigen::VectorXd norms = model.colwise().norm().cwiseMax(1e-300);
@@ -161,7 +164,11 @@ void RestrictedLikelihood::set_correlation(double from_pose_to_pose) {
     for (Eigen::Index axis = 0; axis < count; ++axis)
       shared.row(first_row_[pose] + axis).segment(axis * poses, poses) = root.row(i);
   }
-  const Eigen::MatrixXd drift = beyond_model(shared);
+  set_in_order(shared);
+}
+
+void RestrictedLikelihood::set_in_order(const Eigen::MatrixXd& columns) {
+  const Eigen::MatrixXd drift = beyond_model(columns);
   covariance_[order] = drift * drift.transpose();
 }
 
