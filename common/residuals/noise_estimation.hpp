@@ -23,7 +23,7 @@ struct NoiseRows {
   std::vector<std::size_t> group;       ///< per pose: repeats of one pose have the same
   std::vector<double> order;            ///< per pose: its place in the order of measuring
   bool drift_is_rival = false;          ///< of what is asked: what neighbours share counts however little shows it
-  RowMatrix even_drift;                 ///< rows x numbers that count as fitted; as a rival, it may be likelier
+  RowMatrix even_drift{};               ///< rows x numbers that count as fitted; as a rival, it may be likelier
 };
 
 struct NoiseEstimate {
