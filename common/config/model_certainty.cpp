@@ -46,10 +46,14 @@ std::string range_text(const Joint& joint, const Interval& range) {
   return std::string(is_revolute(joint) ? "range_rad: " : "range_m: ") + yaml_numbers(ends);
 }
 
-Interval read_range(const YamlNode& node, const Joint& joint) {
-  const std::vector<double> ends = node.at(is_revolute(joint) ? "range_rad" : "range_m").numbers();
-  if (ends.size() != 2 || !(ends[0] <= ends[1])) node.fail("", "must have a range of two numbers, the lower first");
+Interval read_ends(const YamlNode& node) {
+  const std::vector<double> ends = node.numbers();
+  if (ends.size() != 2 || !(ends[0] <= ends[1])) node.fail("must be two numbers, the lower first");
   return {ends[0], ends[1]};
+}
+
+Interval read_range(const YamlNode& node, const Joint& joint) {
+  return read_ends(node.at(is_revolute(joint) ? "range_rad" : "range_m"));
 }
 
 std::string term_text(const CorrectionTerm& term, const Chain& chain) {
@@ -107,6 +111,10 @@ ParameterId take_parameter(const YamlNode& name, std::vector<ParameterId>& possi
 
 std::string posterior_text(const CalibratedModel& model) {
   std::ostringstream text;
+  if (const auto& carried = model.robot.payloads_kg) {
+    const double ends[] = {carried->lower, carried->upper};
+    text << "measured_payload_kg: " << yaml_numbers(ends) << '\n';
+  }
   if (!model.measured.empty()) text << "measured_ranges:\n";
   for (std::size_t joint = 0; joint < model.measured.size(); ++joint) {
     text << "  - {joint: " << joint + 1 << ", " << range_text(model.nominal.chain.joints[joint], model.measured[joint])
@@ -130,6 +138,7 @@ std::string posterior_text(const CalibratedModel& model) {
 }
 
 void read_posterior(const YamlNode& file, CalibratedModel& model) {
+  if (const YamlNode* carried = file.find("measured_payload_kg")) model.robot.payloads_kg = read_ends(*carried);
   if (const YamlNode* ranges = file.find("measured_ranges")) {
     const Chain& chain = model.nominal.chain;
     for (const YamlNode& entry : ranges->list(chain.joints.size())) {

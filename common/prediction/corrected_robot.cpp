@@ -92,6 +92,12 @@ Displacement displacement(const Chain& chain, const std::vector<Effect>& effects
   return sum;
 }
 
+Needs CorrectedRobot::needs(const Effect& effect) const {
+  Needs needs = law_of(effect).needs(effect, described);
+  if (payloads_kg && payloads_kg->upper > 0.0) needs.payload |= law_of(effect).bears_payload(effect, described);
+  return needs;
+}
+
 const Eigen::Isometry3d& CorrectedRobot::tool(const std::string& target) const {
   const auto found = tools.find(target);
   DEMECAL_CHECK(found != tools.end(), "no tool for target '" << target << "'");
@@ -159,6 +165,12 @@ CorrectedRobot nominal_robot(const DataSet& data) {
   for (const auto& [target, point_m] : data.tools_m) robot.tools[target] = tool_at(point_m);
   for (const MeasuredPose& pose : data.poses) robot.tools.try_emplace(pose.target, tool_at(nominal_tool(data, pose)));
   robot.corrections.resize(robot.chain.joints.size());
+  for (const MeasuredPose& pose : data.poses) {
+    if (!pose.payload_kg) continue;
+    Interval& range =
+        robot.payloads_kg ? *robot.payloads_kg : robot.payloads_kg.emplace(*pose.payload_kg, *pose.payload_kg);
+    range = {std::min(range.lower, *pose.payload_kg), std::max(range.upper, *pose.payload_kg)};
+  }
   return robot;
 }
 

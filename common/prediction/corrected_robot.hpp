@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,8 @@ struct CorrectedRobot {
   std::vector<JointCorrection> corrections;        ///< one per joint
   std::vector<Effect> effects{};                   ///< what else the arm does, by how `described` stands
   Robot described{};  ///< the arm as its maker describes it; needed where there are effects
+  /// Least and greatest payload that it was calibrated with; nothing where no pose stated one.
+  std::optional<Interval> payloads_kg{};
   /// Where contacts are taken to be, in the measurements' frame: estimates beside the arm, none of its numbers.
   std::map<ContactGroup, ContactPlace> contacts{};
   /// What takes points of a further station, as the data set gives them, to where the first station would measure them.
@@ -86,6 +89,9 @@ struct CorrectedRobot {
 
   /// flange_from_tool of a target; the robot must have it.
   const Eigen::Isometry3d& tool(const std::string& target) const;
+  /// What it takes to apply one of the effects as it was calibrated: the payload also where known masses alone make it,
+  /// and the arm was calibrated with something in its hand.
+  Needs needs(const Effect& effect) const;
   /// q + g(q): the command that, without corrections, would turn the joints to where they are. g does not pass through
   /// couplings.
   JointVector corrected_joints(const JointVector& commanded) const;

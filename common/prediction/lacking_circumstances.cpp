@@ -8,7 +8,7 @@ std::vector<LackingCircumstance> lacking_circumstances(const CorrectedRobot& rob
                                                        std::span<const std::size_t> poses) {
   std::vector<LackingCircumstance> all;
   for (const Effect& effect : robot.effects) {
-    const Needs needs = law_of(effect).needs(effect, data.robot);
+    const Needs needs = robot.needs(effect);
     for (const CircumstanceWords& one : circumstances()) {
       if (!(needs.*one.needed)) continue;
       const auto without = static_cast<std::size_t>(

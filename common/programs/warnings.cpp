@@ -136,7 +136,7 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
     if (stated(one)) continue;
     std::vector<const Effect*> depending;
     for (const Effect& effect : model.robot.effects) {
-      if (law_of(effect).needs(effect, model.robot.described).*one.needed) depending.push_back(&effect);
+      if (model.robot.needs(effect).*one.needed) depending.push_back(&effect);
     }
     if (depending.empty()) continue;
     std::string option;

@@ -80,7 +80,7 @@ Eigen::VectorXd change_of_rows(const CorrectedRobot& robot, const DataSet& data,
                                std::size_t pose, const UsualSpread& spread, int joint) {
   Eigen::VectorXd rows = Eigen::VectorXd::Zero(field.rows_of_pose(pose));
   for (const Effect& effect : robot.effects) {
-    if (!(law_of(effect).needs(effect, data.robot).*spread.of)) continue;
+    if (!(robot.needs(effect).*spread.of)) continue;
     const Unstated what{effect, data.robot, joint};
     Stop varied = field.states[pose].stop;
     spread.vary(what, varied);
@@ -96,8 +96,8 @@ double add_unstated(const CorrectedRobot& robot, const DataSet& data, const Resi
                     Eigen::MatrixXd& covariance) {
   double squares = 0.0;
   for (const UsualSpread& spread : kUsualSpreads) {
-    const bool needed = std::ranges::any_of(
-        robot.effects, [&](const Effect& effect) { return law_of(effect).needs(effect, data.robot).*spread.of; });
+    const bool needed =
+        std::ranges::any_of(robot.effects, [&](const Effect& effect) { return robot.needs(effect).*spread.of; });
     for (int joint = 0; needed && joint < (spread.by_joint ? data.robot.chain.size() : 1); ++joint) {
       Eigen::VectorXd together = Eigen::VectorXd::Zero(field.rows());
       for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {

@@ -130,7 +130,7 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   model.robot.effects = {{.kind = "backlash", .joint = 1, .values = {1e-4}}};
   EXPECT_FALSE(written_and_read(model).posterior);
   EXPECT_TRUE(written_and_read(model).measured.empty());
-  EXPECT_FALSE(written_and_read(model).interval);
+  EXPECT_FALSE(written_and_read(model).interval || written_and_read(model).robot.payloads_kg);
   Posterior posterior;
   posterior.ids = effect_parameters(model.robot);
   posterior.ids.push_back({.kind = ParameterId::Kind::link, .index = 3, .link = LinkParameter::beta});
@@ -143,6 +143,7 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   model.posterior = posterior;
   model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true, {{"", 2e-5}, {"B: door", 1e-3}}};
   for (int joint = 0; joint < 6; ++joint) model.measured.push_back({stream.real(-2, 0), stream.real(0, 2)});
+  model.robot.payloads_kg = Interval{0.0, stream.real(1, 9)};
   const CalibratedModel read = written_and_read(model);
   ASSERT_TRUE(read.posterior && read.interval);
   EXPECT_EQ(read.interval->quantile, 1.75);
@@ -158,10 +159,8 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   EXPECT_EQ(read.posterior->terms[0].joint, 1);
   EXPECT_DOUBLE_EQ(read.posterior->terms[0].shape(0.6), posterior.terms[0].shape(0.6));
   EXPECT_LT((read.posterior->factor - posterior.factor).cwiseAbs().maxCoeff(), 1e-8);
-  for (std::size_t joint = 0; joint < 6; ++joint) {
-    EXPECT_EQ(read.measured[joint].lower, model.measured[joint].lower);
-    EXPECT_EQ(read.measured[joint].upper, model.measured[joint].upper);
-  }
+  EXPECT_EQ(read.measured, model.measured);
+  EXPECT_EQ(read.robot.payloads_kg, model.robot.payloads_kg);
 }
 
 /// Two joints with formulas of one structure, which is a shared function.

@@ -161,5 +161,15 @@ TEST(CorrectedCommand, OfFewerThanSixJointsPutsThePositionFirst) {
   }
 }
 
+TEST(NominalRobot, KnowsWhichPayloadsItIsToBeCalibratedWith) {
+  DataSet data;
+  data.robot.chain = wrist_arm();
+  data.poses.resize(3);
+  EXPECT_FALSE(nominal_robot(data).payloads_kg);
+  data.poses[1].payload_kg = 4.0;
+  data.poses[2].payload_kg = 1.5;
+  EXPECT_EQ(nominal_robot(data).payloads_kg, (Interval{1.5, 4.0}));
+}
+
 }  // namespace
 }  // namespace demecal

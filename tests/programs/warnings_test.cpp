@@ -98,6 +98,23 @@ TEST(Concerns, SayWhatEffectsDependOnAndNobodyStates) {
   EXPECT_THAT(sentences({.payload_kg = 0.0, .temperature_celsius = 30.0}), IsEmpty());
 }
 
+TEST(Concerns, SayThatKnownMassesTakeThePayloadWhereTheArmWasCalibratedWithOne) {
+  CommandModel model = wave_model(2e-3);
+  model.robot.effects = {
+      {.kind = "compliance", .joint = 1, .settings = {}, .form = "masses", .formula = {}, .values = {1e-6}}};
+  const auto is_told = [&] {
+    const auto all = corrected_joints(model, joints_with(0.5, 0.2)).warnings;
+    return std::ranges::any_of(all, [](const Remark& one) {
+      return one.sentence.starts_with("compliance of joint 2 depends on the payload, which the program does not state");
+    });
+  };
+  EXPECT_FALSE(is_told());
+  model.robot.payloads_kg = Interval{0.0, 0.0};
+  EXPECT_FALSE(is_told());
+  model.robot.payloads_kg = Interval{0.0, 6.0};
+  EXPECT_TRUE(is_told());
+}
+
 TEST(Concerns, SayWhichEffectsAreNotToBeBelieved) {
   const auto are_told = [](const Effect& effect) {
     CommandModel model = wave_model(2e-3);
