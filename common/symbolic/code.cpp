@@ -1,6 +1,7 @@
 #include "symbolic/code.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cstddef>
 #include <set>
 #include <sstream>
@@ -85,9 +86,14 @@ class CodeFile {
   std::size_t joints() const { return listing_.actual.size(); }
   std::string number_of(std::size_t i) const { return std::to_string(i + 1); }
 
+  /// Names are other people's text: none ends its line of comment, and what stands behind it would be code.
   std::string remarks(const std::string& mark) const {
     std::string all;
-    for (const std::string& line : listing_.remarks) all += mark + line + '\n';
+    for (std::string line : listing_.remarks) {
+      std::ranges::replace_if(
+          line, [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
+      all += mark + line + '\n';
+    }
     return all + '\n';
   }
   std::string support_functions_in(const char* SupportFunction::*language) const {
