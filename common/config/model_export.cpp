@@ -36,15 +36,21 @@ namespace {
 
 constexpr int kSampledPoses = 500;
 
-JointVector sampled_joints(const CalibratedModel& model, RandomStream& random) {
+/// Somewhere in what was measured, come to from any side, with any payload of those measured.
+Stop sampled_stop(const CalibratedModel& model, RandomStream& random) {
   JointVector q(model.nominal.chain.size());
+  ApproachSigns approach(q.size());
   for (int i = 0; i < q.size(); ++i) {
     const auto joint = static_cast<std::size_t>(i);
     const Joint& row = model.nominal.chain.joints[joint];
     const Interval range = model.measured.empty() ? Interval{row.lower, row.upper} : model.measured[joint];
     q[i] = random.real(range.lower, range.upper);
+    approach[i] = random.chance(0.5) ? 1.0 : -1.0;
   }
-  return q;
+  Stop stop(q);
+  stop.approach = approach;
+  if (const auto& carried = model.robot.payloads_kg) stop.payload_kg = random.real(carried->lower, carried->upper);
+  return stop;
 }
 
 std::string rounded_mm_text(double length_m) {
@@ -121,15 +127,16 @@ std::vector<std::string> lacks_of_links(const CalibratedModel& model) {
     RandomStream random{1};
     double sum_m = 0.0, most_m = 0.0;
     for (int i = 0; i < kSampledPoses; ++i) {
-      const JointVector q = sampled_joints(model, random);
-      const double lack_m = (robot.predict(Stop(q), "").translation() - forward(robot.chain, q) * tool_m).norm();
+      const Stop stop = sampled_stop(model, random);
+      const double lack_m = (robot.predict(stop, "").translation() - forward(robot.chain, stop.joints) * tool_m).norm();
       sum_m += lack_m;
       most_m = std::max(most_m, lack_m);
     }
     notes.push_back("joint corrections and effects are left out, for links cannot hold them: at " +
-                    std::to_string(kSampledPoses) + " random poses of the measured ranges they move the tool by " +
+                    std::to_string(kSampledPoses) +
+                    " random poses of the measured ranges, come to from either side, they move the tool by " +
                     rounded_mm_text(sum_m / kSampledPoses) + " on average and " + rounded_mm_text(most_m) +
-                    " at most; `apply` and `export --format c` hold them");
+                    " at most (neither heat nor time counted); `apply` and `export --format c` hold them");
   }
   if (!model.declared.registration && !model.job.empty())
     notes.emplace_back(

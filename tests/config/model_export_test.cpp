@@ -249,6 +249,14 @@ TEST(UrCalibration, IsRefusedOfOtherArms) {
   EXPECT_THAT(of("kuka-iiwa7.yaml"), HasSubstr("is no arm of Universal Robots"));
 }
 
+TEST(ExportedUrdf, SaysWhatTheSideOfApproachDoesThatLinksCannotHold) {
+  const TemporaryFolder folder;
+  CalibratedModel model = model_of(imported(folder, kUrdf));
+  model.robot.effects = {{.kind = "backlash", .joint = 0, .values = {1e-3}}};
+  EXPECT_THAT(lacks_of_links(model),
+              Contains(testing::AllOf(HasSubstr("they move the tool by "), testing::Not(HasSubstr("by 0 mm")))));
+}
+
 TEST(ExportedUrdf, SaysWhereTheBaseWasNotFitted) {
   const TemporaryFolder folder;
   CalibratedModel model = model_of(imported(folder, kUrdf));
