@@ -85,6 +85,25 @@ void require_alike_arm(const CalibratedModel& model, const DataSet& data) {
                   model.nominal.name, 1e3 * farthest_m));
 }
 
+void require_alike_tool(const CalibratedModel& model, const DataSet& data) {
+  constexpr double kSame_m = 3e-3;
+  const Eigen::Vector3d& stated_m = data.robot.chain.tool_m;
+  const Eigen::Vector3d identified_m = model.robot.tool("").translation();
+  if (stated_m.isZero(0.0) || (stated_m - model.nominal.chain.tool_m).norm() <= kSame_m ||
+      (stated_m - identified_m).norm() <= kSame_m) {
+    return;
+  }
+  const auto point = [](const Eigen::Vector3d& tool_m) {
+    return fmt::format("{:.1f}, {:.1f}, {:.1f} mm", 1e3 * tool_m.x(), 1e3 * tool_m.y(), 1e3 * tool_m.z());
+  };
+  throw InputError(
+      {data.file, 0}, data.robot.name,
+      fmt::format("has its tool at {}, which is another than the one the model was made with: stated at {}, "
+                  "identified at {}; --refit-base fits base and tool to these poses, --force judges them "
+                  "with the model's tool",
+                  point(stated_m), point(model.nominal.chain.tool_m), point(identified_m)));
+}
+
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data) {
   require_same_arm(model.robot, data);
   const std::string difference = first_difference(model.nominal.chain, data.robot.chain);

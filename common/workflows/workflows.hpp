@@ -141,6 +141,10 @@ void require_same_arm(const CorrectedRobot& robot, const DataSet& data);
 /// corrects: 2 cm or more at its flange.
 void require_alike_arm(const CalibratedModel& model, const DataSet& data);
 
+/// Throws InputError where the data set's robot states a tool point that is neither the one that the model's robot
+/// states nor the one that was identified, each within 3 mm: the model would be blamed for another tool.
+void require_alike_tool(const CalibratedModel& model, const DataSet& data);
+
 /// As require_same_arm(), and where its maker's figures are not those that the model was made from.
 void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data);
 

@@ -141,6 +141,7 @@ ExitCode run_certify(const CertifyRequest& request) {
   if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
   if (!request.force && are_computed(checked)) return ExitCode::contradiction;
   if (!request.force) require_alike_arm(model, data);
+  if (!request.force && !request.refit_base) require_alike_tool(model, data);
   make_writable(request.out, {"certificate.html", "certificate.xml", "certificate.pdf"}, request.force);
   check_fitted(data, model.robot, model.posterior, model.interval, checked.check);
   std::vector<std::string> notes = notes_of_check(checked.check);

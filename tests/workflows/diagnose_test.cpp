@@ -193,5 +193,28 @@ TEST(CalibrateWithoutEvolution, IsInterruptedAfterARound) {
   EXPECT_EQ(result.loop.rounds.size(), 1U);
 }
 
+TEST(AlikeTool, IsTheStatedOneOrTheIdentifiedOne) {
+  CalibratedModel model;
+  model.nominal.chain.tool_m = {0.02, 0.01, 0.15};
+  model.robot.tools[""] = Eigen::Isometry3d(Eigen::Translation3d(0.025, 0.01, 0.16));
+  DataSet data;
+  const auto is_taken = [&](const Eigen::Vector3d& tool_m) {
+    data.robot.chain.tool_m = tool_m;
+    try {
+      require_alike_tool(model, data);
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("--refit-base"), std::string::npos) << error.what();
+      return false;
+    }
+    return true;
+  };
+  EXPECT_TRUE(is_taken({0.02, 0.01, 0.15}));
+  EXPECT_TRUE(is_taken({0.025, 0.01, 0.16}));
+  EXPECT_TRUE(is_taken(Eigen::Vector3d::Zero())) << "nothing is stated";
+  EXPECT_FALSE(is_taken({0.02, 0.01, 0.18}));
+  model.robot.tools[""] = Eigen::Isometry3d(Eigen::Translation3d(0.02, 0.01, 0.179));
+  EXPECT_TRUE(is_taken({0.02, 0.01, 0.18})) << "the model's robot was described wrongly";
+}
+
 }  // namespace
 }  // namespace demecal
