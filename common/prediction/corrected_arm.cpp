@@ -159,14 +159,14 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
   return listing;
 }
 
-Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const std::string& target) {
+Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const Eigen::Isometry3d& tool) {
   CorrectedRobot nominal;
   nominal.chain = robot.described.chain;
   nominal.described = robot.described;
   nominal.sensor_from_base = robot.sensor_from_base;
-  nominal.tools = robot.tools;
+  nominal.tools[""] = tool;
   nominal.corrections.resize(nominal.chain.joints.size());
-  return listing_of(corrected_arm(algebra, nominal, target), nominal, "As described");
+  return listing_of(corrected_arm(algebra, nominal, ""), nominal, "As described");
 }
 
 namespace {

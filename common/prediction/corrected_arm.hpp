@@ -34,9 +34,9 @@ enum class PoseFrame { measurements, own_base };
 Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const std::string& title,
                    PoseFrame frame = PoseFrame::measurements);
 
-/// The listing of the arm as `robot.described` has it, in the base and with the tool of `robot`: what inverse_in_c()
-/// corrects for.
-Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const std::string& target);
+/// The listing of the arm as `robot.described` has it, in the base of `robot` and with a tool of its own: what
+/// inverse_in_c() corrects for.
+Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const Eigen::Isometry3d& tool);
 
 /// As wrap_near().
 inline Expression wrapped_near(Expression angle, double centre_rad) {

@@ -105,6 +105,13 @@ Eigen::Isometry3d CommandModel::nominal_tool(const JointVector& joints) const {
   return forward(nominal.chain, joints) * Eigen::Isometry3d(Eigen::Translation3d(nominal.chain.tool_m));
 }
 
+Eigen::Isometry3d believed_tool(const Eigen::Vector3d& described_m, const Eigen::Isometry3d& identified) {
+  if ((identified.translation() - described_m).norm() > kOtherTool_m) return identified;
+  Eigen::Isometry3d believed(Eigen::Translation3d{described_m});
+  if (vector_of(identified.linear()).norm() > kLargestToolTurn) believed.linear() = identified.linear();
+  return believed;
+}
+
 CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
                            const std::optional<Eigen::Vector3d>& other_tool_m) {
   CommandModel model{nominal, identified, std::move(bounds), {}};

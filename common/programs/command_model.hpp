@@ -44,6 +44,10 @@ struct CommandModel {
 CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
                            const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
 
+/// Where the described tool stands as the controller believes it, beside the identified one: what lies between them is
+/// corrected, which by the rules above is nothing of another tool and no turn of how an instrument's target is mounted.
+Eigen::Isometry3d believed_tool(const Eigen::Vector3d& described_m, const Eigen::Isometry3d& identified);
+
 /// The model, with what its file states of how sure it is; numbers that are not part of it are left out.
 /// `registration`: the model's base was fitted, and without_base() was applied.
 CommandModel with_posterior(CommandModel model, const CorrectedRobot& identified,

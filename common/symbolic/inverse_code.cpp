@@ -118,8 +118,8 @@ double inverse(const double goal[16], double q[N]) {
   return left;
 }
 
-/* Joints to command so that the calibrated tool stands where the arm as its maker describes it, in the same base and
-   with the same tool, would stand at `nominal`. Returns as inverse does. */
+/* Joints to command so that the calibrated tool stands where the arm and the tool as they are described, in the same
+   base, would stand at `nominal`. Returns as inverse does. */
 double corrected(const double nominal[N], double command[N]) {
   double goal[16];
   nominal_forward(nominal, goal);

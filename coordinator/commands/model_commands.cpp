@@ -29,6 +29,7 @@
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_arm.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "programs/command_model.hpp"
 #include "report/evaluation.hpp"
 #include "report/pose_places.hpp"
 #include "report/report.hpp"
@@ -88,7 +89,10 @@ ExportedListing listing_of_robot(Algebra& algebra, const ExportRequest& request,
   require_target(request, robot);
   const CorrectedArm arm = corrected_arm(algebra, robot, request.target);
   for (const std::string& note : arm.notes) fmt::print(stderr, "{}: {}\n", request.file, note);
-  return {listing_of(arm, robot, title, frame), inverse_in_c(described_listing(algebra, robot, request.target))};
+  const Eigen::Isometry3d& identified = robot.tool(request.target);
+  const Eigen::Isometry3d believed =
+      request.target.empty() ? believed_tool(robot.described.chain.tool_m, identified) : identified;
+  return {listing_of(arm, robot, title, frame), inverse_in_c(described_listing(algebra, robot, believed))};
 }
 
 /// By what the file says that it is: a model, a robot, or matrices.
@@ -186,6 +190,7 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                                    : seen_from_stations(model.robot, model.stations, data);
   require_same_arm(robot, data);
   if (!request.force) require_alike_arm(model, data);
+  if (!request.force && !request.refit_base && !model.fleet) require_alike_tool(model, data);
   if (model.posterior) model.posterior = posterior_of(model, robot, data, request.refit_base || model.fleet);
   model.robot = robot;
   check_fitted(data, robot, model.posterior, model.interval, checked.check);

@@ -161,7 +161,8 @@ TEST(Code, InCInvertsTheModel) {
          << "];\n    printf(\"%.17g\", corrected(stops[i], command));\n    for (int k = 0; k < " << n
          << "; ++k) printf(\" %.17g\", command[k]);\n    printf(\"\\n\");\n  }\n  return 0;\n}\n";
     Algebra algebra;
-    const std::string code = code_in(robot, CodeLanguage::c) + inverse_in_c(described_listing(algebra, robot, ""));
+    const std::string code =
+        code_in(robot, CodeLanguage::c) + inverse_in_c(described_listing(algebra, robot, robot.tool("")));
     const Folder folder;
     const std::string program = folder.path("inverse");
     int failed = 0;
@@ -251,6 +252,18 @@ TEST(Code, InMatlabHasWholeStatementsAndCallsOnlyWhatIsThere) {
   }
   for (std::sregex_iterator it(without_remarks.begin(), without_remarks.end(), called), end; it != end; ++it) {
     EXPECT_TRUE(known.contains((*it)[1])) << (*it)[1];
+  }
+}
+
+TEST(Code, HasNoLineOfItsOwnFromAName) {
+  RandomStream stream{77};
+  const CorrectedRobot robot = random_robot(stream, random_arm(stream, 6, Convention::standard_dh, 0.0), 0.01, 0.1);
+  for (const CodeLanguage language :
+       {CodeLanguage::text, CodeLanguage::c, CodeLanguage::python, CodeLanguage::matlab}) {
+    Algebra algebra;
+    const Listing listing =
+        listing_of(corrected_arm(algebra, robot, ""), robot, "An arm\nevil\r\nevil", PoseFrame::own_base);
+    EXPECT_THAT(code_of(listing, language), testing::Not(testing::ContainsRegex("(^|[\n\r])evil")));
   }
 }
 

@@ -259,5 +259,31 @@ TEST(GivenTool, StandsInForOneToolAlone) {
               HasSubstr("stands in for one that"));
 }
 
+/// What is corrected of the tool: the described one as the identified one sees it.
+TEST(BelievedTool, LeavesOfTheToolWhatProgramsAreCorrectedBy) {
+  const Eigen::Vector3d described_m(0.02, 0.01, 0.15);
+  for (const double error_m : {0.0, 1e-4, 9e-3, 0.02}) {
+    for (const double turn_rad : {0.0, 3e-3, 0.04, 0.8}) {
+      Robot nominal;
+      nominal.chain = wrist_arm();
+      nominal.chain.tool_m = described_m;
+      CorrectedRobot robot;
+      robot.chain = nominal.chain;
+      robot.described = nominal;
+      robot.corrections.resize(nominal.chain.joints.size());
+      robot.tools[""] = Eigen::Translation3d(described_m + error_m * Eigen::Vector3d::UnitX()) *
+                        Eigen::AngleAxisd(turn_rad, Eigen::Vector3d::UnitZ());
+      const CommandModel model = command_model(nominal, robot, std::vector<double>(6, 1.0));
+      const Eigen::Isometry3d corrected =
+          model.robot.tool("").inverse() * Eigen::Translation3d(model.nominal.chain.tool_m);
+      const Eigen::Isometry3d left = robot.tool("").inverse() * believed_tool(described_m, robot.tool(""));
+      const Eigen::Isometry3d turned(robot.tool("").linear());
+      // Where a turn is that of a mount, it stands on both sides.
+      const Eigen::Isometry3d expected = turn_rad > 0.05 ? turned.inverse() * corrected * turned : corrected;
+      EXPECT_LT((left.matrix() - expected.matrix()).norm(), 1e-12) << error_m << " m, " << turn_rad << " rad";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace demecal
