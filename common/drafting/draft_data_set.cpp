@@ -167,16 +167,19 @@ std::vector<JoinDraft> possible_joins(const std::vector<GivenTable>& tables) {
   return joins;
 }
 
-/// Tables that give a quantity; where several do, the first counts.
+/// Tables that give a quantity; where several do, the first counts, of what is measured the first without joints: a
+/// controller's own table has positions that it computed from them.
 void keep_one_source(std::vector<GivenTable>& tables, std::vector<std::size_t> GuessedColumns::*group,
                      std::vector<std::string>& assumed, const char* what) {
-  const GivenTable* source = nullptr;
+  const auto gives = [&](const GivenTable& given) { return !(given.columns.*group).empty(); };
+  auto source = std::ranges::find_if(tables, gives);
+  if (group != &GuessedColumns::joints) {
+    const auto beside = std::ranges::find_if(
+        tables, [&](const GivenTable& given) { return gives(given) && given.columns.joints.empty(); });
+    if (beside != tables.end()) source = beside;
+  }
   for (GivenTable& given : tables) {
-    if ((given.columns.*group).empty()) continue;
-    if (source == nullptr) {
-      source = &given;
-      continue;
-    }
+    if (!gives(given) || &given == &*source) continue;
     (given.columns.*group).clear();
     assumed.push_back(std::string(what) + " are those of " + source->path.string() + ", not of " + given.path.string());
   }

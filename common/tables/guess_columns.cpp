@@ -130,11 +130,17 @@ GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::ve
   for (const std::string& name : joint_names) plain.push_back(plain_name(name));
   if (!plain.empty()) guess.joints = named.all_of(plain);
   if (guess.joints.empty()) guess.joints = joint_columns(named, joints);
-  guess.position = three_columns(named, {{"x", "y", "z"},
-                                         {"posx", "posy", "posz"},
-                                         {"measuredx", "measuredy", "measuredz"},
+  // Beside columns that say so themselves, bare ones are what was wanted rather than what was measured.
+  guess.position = three_columns(named, {{"measuredx", "measuredy", "measuredz"},
                                          {"xmeasured", "ymeasured", "zmeasured"},
+                                         {"measx", "measy", "measz"},
+                                         {"xmeas", "ymeas", "zmeas"},
+                                         {"actualx", "actualy", "actualz"},
+                                         {"xactual", "yactual", "zactual"},
+                                         {"actx", "acty", "actz"},
                                          {"xact", "yact", "zact"},
+                                         {"x", "y", "z"},
+                                         {"posx", "posy", "posz"},
                                          {"px", "py", "pz"}});
   guess.sigma = three_columns(
       named, {{"sx", "sy", "sz"}, {"ux", "uy", "uz"}, {"sigmax", "sigmay", "sigmaz"}, {"stdx", "stdy", "stdz"}});

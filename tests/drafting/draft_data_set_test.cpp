@@ -72,6 +72,22 @@ TEST(Drafts, NameColumnsAsTheFileDoes) {
   EXPECT_THAT(draft.text, HasSubstr("[x, \"y\", z]"));
 }
 
+TEST(Drafts, TakeWhatWasMeasuredRatherThanWhatAControllerComputed) {
+  const TemporaryFolder folder;
+  const auto robot = folder.write("robot.csv", "name,q1_deg,q2_deg,x_mm,y_mm,z_mm\nA,1,2,3,4,5\nB,2,3,4,5,6\n");
+  const auto tracker = folder.write("tracker.csv", "name,x_mm,y_mm,z_mm\nA,3,4,5.5\nB,4,5,6.5\n");
+  for (const auto& files : {std::vector{robot, tracker}, std::vector{tracker, robot}}) {
+    const auto draft = draft_data_sets(read_given_tables(files, 2, {}), folder.path(), "robot.yaml", 2, {}).front();
+    EXPECT_THAT(draft.assumed,
+                Contains(AllOf(HasSubstr("positions are those of "), HasSubstr("tracker.csv, not of "))));
+  }
+  const auto both = folder.write("both.csv",
+                                 "q1_deg,q2_deg,x_mm,y_mm,z_mm,x_actual_mm,y_actual_mm,z_actual_mm\n"
+                                 "1,2,3,4,5,3,4,5.5\n2,3,4,5,6,4,5,6.5\n");
+  EXPECT_THAT(draft_data_sets(read_given_tables({both}, 2, {}), folder.path(), "robot.yaml", 2, {}).front().text,
+              HasSubstr("x_actual_mm"));
+}
+
 TEST(Drafts, AreCalledAsTheirFolder) {
   const TemporaryFolder folder;
   const std::string rows = "1,2,3,4,5,a\n2,3,4,5,6,a\n";
