@@ -140,7 +140,7 @@ double chance_of_at_most(std::size_t successes, std::size_t count, double share)
 
 IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses, PoseSet set) {
   IntervalCoverage coverage;
-  std::vector<double> radii_mm;
+  std::vector<double> radii_mm, multiples;
   std::set<std::string> names;
   for (const PoseErrorEntry& pose : poses) {
     if (pose.set != to_string(set) || !pose.after_mm || !pose.interval95_mm) continue;
@@ -148,16 +148,20 @@ IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses, PoseSet s
     coverage.inside += *pose.after_mm <= *pose.interval95_mm ? 1 : 0;
     coverage.distinct += pose.id.empty() || names.insert(pose.id).second ? 1 : 0;
     radii_mm.push_back(*pose.interval95_mm);
+    multiples.push_back(*pose.after_mm / *pose.interval95_mm);
   }
-  if (!radii_mm.empty()) coverage.median_mm = median(radii_mm);
+  if (radii_mm.empty()) return coverage;
+  coverage.median_mm = median(radii_mm);
+  coverage.least_radii = std::ranges::min(multiples);
   return coverage;
 }
 
 std::string beyond_radii_sentence(const IntervalCoverage& coverage, PoseSet set) {
-  constexpr double kRare = 1e-3;
+  constexpr double kRare = 1e-3, kFar = 5.0;
   if (coverage.poses == 0) return {};
   const std::size_t inside = coverage.inside * coverage.distinct / coverage.poses;
-  if (chance_of_at_most(inside, coverage.distinct, kIntervalShare) > kRare) return {};
+  const bool far = coverage.least_radii > kFar;
+  if (!far && chance_of_at_most(inside, coverage.distinct, kIntervalShare) > kRare) return {};
   return fmt::format(
       "Only {} of {} {} poses lie within the radius that is to hold 95 % of them: they differ from those that the "
       "model "

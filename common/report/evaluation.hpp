@@ -93,9 +93,11 @@ struct IntervalCoverage {
   std::size_t poses = 0, inside = 0;
   double median_mm = 0.0;
   std::size_t distinct = 0;  ///< repeats and targets of one pose counted once
+  double least_radii = 0.0;  ///< the smallest of the errors, each as a multiple of its radius
 };
 IntervalCoverage coverage_of(const std::vector<PoseErrorEntry>& poses, PoseSet set = PoseSet::accept);
-/// Where so few lie within it as chance makes in less than one case of a thousand: what that says. Nothing otherwise.
+/// Where so few lie within it as chance makes in less than one case of a thousand, or none is nearer than five radii
+/// however few there are: what that says. Nothing otherwise.
 /// Repeats and targets of one pose count as one pose.
 std::string beyond_radii_sentence(const IntervalCoverage& coverage, PoseSet set = PoseSet::accept);
 /// The same of the first set of accept, validation and calibration poses that has such a sentence.

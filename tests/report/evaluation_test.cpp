@@ -77,6 +77,23 @@ TEST(BeyondRadii, IsSaidOnlyWhereChanceHardlyDoesIt) {
   EXPECT_THAT(beyond_radii_sentence(coverage(20, 0, 1)), HasSubstr("Only 0 of 20"));
 }
 
+TEST(BeyondRadii, AreSaidOfOnePoseThatIsFarOff) {
+  const auto of_errors = [](std::initializer_list<double> after_mm) {
+    std::vector<PoseErrorEntry> entries(after_mm.size());
+    std::ranges::transform(after_mm, entries.begin(), [](double error_mm) {
+      PoseErrorEntry entry;
+      entry.set = "accept";
+      entry.after_mm = error_mm;
+      entry.interval95_mm = 0.2;
+      return entry;
+    });
+    return beyond_radii_sentence(entries);
+  };
+  EXPECT_THAT(of_errors({1.1}), HasSubstr("Only 0 of 1 accept poses"));
+  EXPECT_THAT(of_errors({0.9}), IsEmpty());
+  EXPECT_THAT(of_errors({1100.0, 0.3}), IsEmpty()) << "one of two may be a gross error";
+}
+
 TEST(BeyondRadii, CountsTheTargetsOfOnePoseOnce) {
   EXPECT_THAT(beyond_radii_sentence(coverage(15, 12, 3)), IsEmpty());
   EXPECT_THAT(beyond_radii_sentence(coverage(45, 36, 1)), HasSubstr("Only 36 of 45"));
