@@ -199,31 +199,6 @@ UnitConversion conversion_of(const CsvTable& table, const ColumnName& name, std:
   return unit->to_inside;
 }
 
-/// Whether digits stand in threes behind the first, with a separator between: "3,070.733", "3'070.733", "3 070".
-bool has_thousands_apart(std::string_view text, char decimal) {
-  if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
-  text = text.substr(0, text.find(decimal));
-  const std::size_t first = text.find_first_of(",.' ");
-  if (first == std::string_view::npos || first == 0 || first > 3) return false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool separates = i >= first && (i - first) % 4 == 0;
-    if (separates ? text[i] != text[first] : text[i] < '0' || text[i] > '9') return false;
-  }
-  return (text.size() - first) % 4 == 0;
-}
-
-std::string why_no_number(const std::string& text, char decimal) {
-  if (text.empty()) return "is empty where a number is expected";
-  if (decimal == ',' && text.find('.') != std::string::npos)
-    return "has a point where the file writes decimal commas: is it a separator of thousands?";
-  if (has_thousands_apart(text, decimal))
-    return "looks like a number with separators of thousands: export the table without them";
-  const std::string lower = lower_case(text);
-  if (lower.find("nan") != std::string::npos || lower.find("inf") != std::string::npos)
-    return "must be a finite number";
-  return "is not a number";
-}
-
 }  // namespace
 
 std::optional<ColumnUnit> find_unit(std::string_view name) {

@@ -71,7 +71,10 @@ void check_header(const std::vector<std::string>& columns, const InputError::Whe
     }
   }
   if (columns.size() == 1 && columns.front().find_first_of(";\t") != std::string::npos) {
-    throw InputError(where, columns.front(), "columns must be separated by commas");
+    throw InputError(where, columns.front(),
+                     "columns must be separated by commas; other separators are recognised where most fields are plain "
+                     "numbers, with "
+                     "their units (deg, mm) in the headings alone");
   }
 }
 

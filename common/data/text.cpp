@@ -19,6 +19,46 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
+namespace {
+
+/// Whether digits stand in threes behind the first, with a separator between: "3,070.733", "3'070.733", "3 070".
+bool has_thousands_apart(std::string_view text, char decimal) {
+  if (!text.empty() && (text.front() == '+' || text.front() == '-')) text.remove_prefix(1);
+  text = text.substr(0, text.find(decimal));
+  const std::size_t first = text.find_first_of(",.' ");
+  if (first == std::string_view::npos || first == 0 || first > 3) return false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool separates = i >= first && (i - first) % 4 == 0;
+    if (separates ? text[i] != text[first] : text[i] < '0' || text[i] > '9') return false;
+  }
+  return (text.size() - first) % 4 == 0;
+}
+
+/// What tables write where there is no value.
+bool says_nothing(std::string_view lower) {
+  constexpr std::array<std::string_view, 7> kNothing{"na", "n/a", "#n/a", "null", "none", "missing", "?"};
+  return lower.find_first_not_of("-") == std::string_view::npos || std::ranges::find(kNothing, lower) != kNothing.end();
+}
+
+}  // namespace
+
+std::string why_no_number(const std::string& text, char decimal) {
+  if (text.empty()) return "is empty where a number is expected";
+  if (decimal == ',' && text.find('.') != std::string::npos)
+    return "has a point where the file writes decimal commas: is it a separator of thousands?";
+  if (has_thousands_apart(text, decimal))
+    return "looks like a number with separators of thousands: export the table without them";
+  const std::string lower = lower_case(text);
+  if (says_nothing(lower)) return "is not a number: where nothing was measured leave the row out";
+  if (lower.find("nan") != std::string::npos || lower.find("inf") != std::string::npos)
+    return "must be a finite number: where nothing was measured leave the row out";
+  if (text.starts_with("\u2212")) return "is not a number: it begins with a dash in place of a minus sign";
+  const std::size_t unit = text.find_first_not_of("+-.,0123456789eE ");
+  if (unit != 0 && unit != std::string::npos && text.find_first_of("0123456789", unit) == std::string::npos)
+    return "is not a number: write its unit in the heading alone";
+  return "is not a number";
+}
+
 std::string number_text(double value) {
   std::array<char, 32> buffer;
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

@@ -13,6 +13,10 @@ namespace demecal::inline data {
 /// no number, one out of range, NaN or an infinity.
 std::optional<double> parse_number(std::string_view text);
 
+/// Why a field of a table that writes `decimal` before its fractions holds no number, and what to do: "is empty where a
+/// number is expected".
+std::string why_no_number(const std::string& text, char decimal);
+
 /// The shortest text that parses back to the same bits.
 std::string number_text(double value);
 

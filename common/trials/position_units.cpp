@@ -18,7 +18,10 @@ struct LengthMistake {
 constexpr LengthMistake kLengthMistakes[] = {
     {1e3, "are in metres where millimetres are stated (or the robot's lengths are 1000 times too long)",
      "in metres where millimetres are stated"},
-    {1e-3, "are in millimetres where metres are stated (or the robot's lengths are in metres)",
+    {1e-3,
+     "are in millimetres where metres are stated, or in micrometres where millimetres are (or the robot's lengths are "
+     "in "
+     "metres)",
      "in millimetres where metres are stated"},
     {25.4, "are in inches where millimetres are stated", "in inches where millimetres are stated"},
     {0.0254, "are in inches where metres are stated", "in inches where metres are stated"},

@@ -134,6 +134,9 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         BadInput{"UnknownConvention", "robot.yaml", "standard_dh", "dh", "robot.yaml:4", "dh",
                  "convention must be one of: standard_dh modified_dh"},
+        BadInput{"TwoJointsOfOneName", "robot.yaml", "limits_deg: [-170, 170]}\n  - {",
+                 "name: elbow, limits_deg: [-170, 170]}\n  - {name: elbow, ", "robot.yaml:7", "elbow",
+                 "is the name of two joints"},
         BadInput{"BalancerOfASlide", "robot.yaml", "tool_mm:",
                  "balancers: [{joint: 2, fixed_mm: 100, moving_mm: 200, shortest_deg: 0}]\ntool_mm:", "robot.yaml:8",
                  "2", "joint slides"},

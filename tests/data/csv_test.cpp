@@ -49,7 +49,9 @@ TEST(Csv, RefusesFaultyTablesWithFileLineValueAndRule) {
            Case{"a,b\n1,2,\n", "poses.csv:2: the row has 3 fields, but the header has 2 columns"},
            Case{"a,b,a\n1,2,3\n", "poses.csv:1: 'a': is the name of two columns; names must differ"},
            Case{"a,,b\n1,2,3\n", "poses.csv:1: column 2 of the header has no name"},
-           Case{"a;b\n1;2\n", "poses.csv:1: 'a;b': columns must be separated by commas"},
+           Case{"a;b\n1;2\n",
+                "poses.csv:1: 'a;b': columns must be separated by commas; other separators are recognised where "
+                "most fields are plain numbers, with their units (deg, mm) in the headings alone"},
            Case{"a,b\n1,\"2\n", "poses.csv:2: '\"2': opens a quote that its line does not close"},
            Case{"a,b\n\"1\"2,3\n", "poses.csv:2: '\"1\"2,3': has text after a closing quote"},
            Case{"a,b\r1,2\r", "poses.csv:1: lines must end in LF or CR LF, not in CR"},

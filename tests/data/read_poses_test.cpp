@@ -95,8 +95,10 @@ TEST(ReadPoses, RefusesBadValuesWithTheirLineAndColumn) {
   const auto with = [](const std::string& row) { return refusal(kHeading + "\n40,0,0,1,2,3\n" + row + "\n"); };
   EXPECT_EQ(with("abc,0,0,1,2,3"), "poses.csv:3: 'abc': column q1_deg is not a number");
   EXPECT_EQ(with(",0,0,1,2,3"), "poses.csv:3: column q1_deg is empty where a number is expected");
-  EXPECT_EQ(with("40,0,0,nan,2,3"), "poses.csv:3: 'nan': column x_mm must be a finite number");
-  EXPECT_EQ(with("40,0,0,1,-Inf,3"), "poses.csv:3: '-Inf': column y_mm must be a finite number");
+  EXPECT_EQ(with("40,0,0,nan,2,3"),
+            "poses.csv:3: 'nan': column x_mm must be a finite number: where nothing was measured leave the row out");
+  EXPECT_EQ(with("40,0,0,1,-Inf,3"),
+            "poses.csv:3: '-Inf': column y_mm must be a finite number: where nothing was measured leave the row out");
   EXPECT_EQ(with("40,0,0,\"1,5\",2,3"), "poses.csv:3: '1,5': column x_mm is not a number");
 }
 

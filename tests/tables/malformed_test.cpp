@@ -149,10 +149,10 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{kComma + "\"B,1,2,3\n", "p:4", "opens a quote"},
         // numbers
         Malformed{kHead + "B;1;;3\n", "p:4", "column Y is empty where a number is expected"},
-        Malformed{kHead + "B;1;---;3\n", "p:4", "column Y is not a number"},
+        Malformed{kHead + "B;1;---;3\n", "p:4", "column Y is not a number: where nothing was measured"},
         Malformed{kHead + "B;1;NaN;3\n", "p:4", "must be a finite number"},
         Malformed{kHead + "B;1;1e999;3\n", "p:4", "column Y is not a number"},
-        Malformed{kHead + "B;1;2 mm;3\n", "p:4", "column Y is not a number"},
+        Malformed{kHead + "B;1;2 mm;3\n", "p:4", "column Y is not a number: write its unit in the heading"},
         Malformed{kHead + "B;1;#REF!;3\n", "p:4", "column Y is not a number"},
         Malformed{kHead + "B;1;1,2,3;3\n", "p:4", "column Y is not a number"}));
 
