@@ -180,18 +180,32 @@ std::string enumerated(const std::vector<std::string>& names) {
   return text;
 }
 
+bool belongs_to_instrument(const Effect& effect) {
+  return law_of(effect).subject() == Subject::instrument;
+}
+
 /// What is said of rivals that nothing splits off.
-std::string inseparable(const std::string& named, const std::vector<Rival>& rivals,
+std::string inseparable(const Effect& effect, const std::vector<Rival>& rivals,
                         const std::vector<RivalSeparation>& separated) {
+  const std::string named = to_string(effect);
   std::vector<std::string> same, near;
+  bool is_seen_without_arm = false;
   for (std::size_t i = 0; i < rivals.size(); ++i) {
-    if (!separated[i].best) (separated[i].same ? same : near).push_back(to_string(rivals[i].effect));
+    if (separated[i].best) continue;
+    (separated[i].same ? same : near).push_back(to_string(rivals[i].effect));
+    is_seen_without_arm |= belongs_to_instrument(effect) != belongs_to_instrument(rivals[i].effect);
   }
+  const std::string without_arm =
+      is_seen_without_arm
+          ? "; what is the instrument's shows without the arm, at a length that is known or a point that "
+            "stands still"
+          : "";
   std::string text;
   if (!same.empty()) text = named + " and " + enumerated(same) + " are the same thing for any measurement of this kind";
-  if (near.empty()) return text;
+  if (near.empty()) return text + without_arm;
   if (!text.empty()) text += "; ";
-  return text + "no practical measurement separates " + named + " of this size from " + enumerated(near);
+  return text + "no practical measurement " + (is_seen_without_arm ? "of poses " : "") + "separates " + named +
+         " of this size from " + enumerated(near) + without_arm;
 }
 
 std::string sentence(const Experiment& experiment, int poses, const std::string& named, const std::string& rivals) {
@@ -209,7 +223,7 @@ std::size_t hardest_rival(const std::vector<RivalSeparation>& separated) {
   return hardest;
 }
 
-NextMeasurement describe(const std::vector<Experiment>& all, const std::string& named, const std::vector<Rival>& rivals,
+NextMeasurement describe(const std::vector<Experiment>& all, const Effect& named, const std::vector<Rival>& rivals,
                          const std::vector<RivalSeparation>& separated) {
   const std::string left = inseparable(named, rivals, separated);
   const std::size_t hardest = hardest_rival(separated);
@@ -220,7 +234,8 @@ NextMeasurement describe(const std::vector<Experiment>& all, const std::string& 
     const std::optional<int> poses = separated[i].poses[choice.experiment];
     if (i != hardest && poses && *poses <= choice.poses) split.push_back(to_string(rivals[i].effect));
   }
-  const std::string sentence_of_choice = sentence(all[choice.experiment], choice.poses, named, enumerated(split));
+  const std::string sentence_of_choice =
+      sentence(all[choice.experiment], choice.poses, to_string(named), enumerated(split));
   return {left.empty() ? sentence_of_choice : sentence_of_choice + "; " + left, choice.poses};
 }
 
@@ -252,7 +267,7 @@ std::optional<NextMeasurement> find_next_measurement(const DiagnosisProblem& pro
   for (const Rival& rival : rivals) asked.push_back(rival.effect);
   const std::vector<Experiment> all = experiments(problem, asked, random);
   RivalComparison comparison(problem, model, named, rivals, random);
-  return describe(all, to_string(named), rivals, separate(comparison, all, rivals.size()));
+  return describe(all, named, rivals, separate(comparison, all, rivals.size()));
 }
 
 }  // namespace demecal::inline next_measurement

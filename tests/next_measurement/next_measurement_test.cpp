@@ -228,6 +228,20 @@ TEST(NextMeasurement, SaysThatWhatIsTooSmallCannotBeTold) {
   EXPECT_EQ(further.poses, 0);
 }
 
+TEST(NextMeasurement, SaysThatWhatIsTheInstrumentsShowsWithoutTheArm) {
+  Confusion confusion{Laboratory(laden_puma({-120, -30, 45, 135}), 39),
+                      effect("sensor_scale", -1, {}, {1e-9}),
+                      effect("gain", 1, {}, {}),
+                      [](Visit&) {},
+                      {}};
+  const NextMeasurement further = advice(confusion, visits_at_hand(confusion));
+  EXPECT_TRUE(further.sentence.ends_with(
+      "; what is the instrument's shows without the arm, at a length that is known or a point that stands still"))
+      << further.sentence;
+  EXPECT_TRUE(further.sentence.starts_with("no practical measurement of poses separates sensor scale"))
+      << further.sentence;
+}
+
 TEST(NextMeasurement, IsForTheHardestOfManyRivals) {
   Laboratory laboratory(laden_puma({-120, -30, 45, 135}), 40);
   laboratory.scenario.couplings = {{2, 1, 8e-5, 0.0, 0.0}};
