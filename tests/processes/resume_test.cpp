@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using Json = nlohmann::json;
 using Words = std::vector<std::string>;
 
-constexpr int kGenerations = 2000;  ///< of which a fifth at most is over when the first are told of
+constexpr int kGenerations = 6000;
 
 Words calibrate_with(const SmallJob& job, const std::string& out, Words more = {}) {
   Words arguments{"calibrate", job.job(),  "--out",          job.path(out),   "--workers",
