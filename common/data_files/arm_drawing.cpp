@@ -150,7 +150,7 @@ DrawnJoint read_axis(const YamlNode& node) {
   return joint;
 }
 
-void check_names(const YamlNode& joints) {
+void check_that_names_differ(const YamlNode& joints) {
   std::set<std::string> names;
   for (const YamlNode& joint : joints.list()) {
     const YamlNode* name = joint.find("name");
@@ -227,7 +227,7 @@ DrawnArm read_drawing(const YamlNode& node) {
   for (const YamlNode& joint : joints.children) arm.joints.push_back(arm.by_axes ? read_axis(joint) : read_row(joint));
   arm.base = read_end(node.find("base"));
   arm.flange = read_end(node.find("flange"));
-  check_names(joints);
+  check_that_names_differ(joints);
   check_reach(joints, arm);
   if (const YamlNode* couplings = node.find("couplings")) arm.couplings = read_couplings(*couplings, arm);
   return arm;
