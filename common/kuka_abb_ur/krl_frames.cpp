@@ -79,8 +79,7 @@ bool is_line(const std::string& word) {
 
 }  // namespace
 
-KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller)
-    : text_(text), controller_(controller), given_(text) {
+KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller) : text_(text), controller_(controller) {
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_data(begin, end); });
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     const auto data = data_of_.find(text.word_at(begin));

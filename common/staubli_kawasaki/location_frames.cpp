@@ -75,6 +75,7 @@ void LocationFrames::read_way(const ProgramText& text, const std::string& word, 
     const std::size_t name = called < end ? text.word_end(called) : std::min(comma + 1, end);
     return flow_.call_at_any_time(program_name(text, text.skip_spaces(name)));
   }
+  if (word == "scall") return computed_call(text, begin, end);
   if (called < end) call(text, called, text.skip_spaces(text.word_end(called)));
 }
 
@@ -83,6 +84,12 @@ void LocationFrames::call(const ProgramText& text, std::size_t at, std::size_t n
   if (called.empty()) return;
   calls_[at] = std::string(text.code().substr(name, called.size()));
   flow_.call(at, called, true);
+}
+
+/// SCALL $name: which program it calls is known when it runs.
+void LocationFrames::computed_call(const ProgramText& text, std::size_t at, std::size_t end) {
+  calls_[at] = std::string(text.trimmed(at, end));
+  flow_.call(at, "scall", true);
 }
 
 LocationFrames::Words LocationFrames::at(std::size_t offset, bool of_pose) {

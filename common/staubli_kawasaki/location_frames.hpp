@@ -30,6 +30,7 @@ class LocationFrames {
     flow_.set_frame(at, {"BASE", Eigen::Isometry3d::Identity(), word});
   }
   void finish() { flow_.finish(); }
+  const FrameFlow& flow() const { return flow_; }
 
   /// A word of tool() or base(), or why none holds; both empty: none is set before.
   struct Word {
@@ -47,6 +48,7 @@ class LocationFrames {
  private:
   void read_way(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end);
   void call(const ProgramText& text, std::size_t at, std::size_t name);
+  void computed_call(const ProgramText& text, std::size_t at, std::size_t end);
 
   FrameFlow flow_{"TOOL", "BASE"};
   std::map<std::size_t, std::string> calls_{};
