@@ -173,6 +173,7 @@ class AsReader {
   /// Gives targets their frames and motions, and takes those out that are no places to go to.
   void finish() {
     statements_.way().finish();
+    statements_.take_departures(text_, program_);
     std::map<std::string, std::optional<Eigen::Isometry3d>> tools;
     const AsStatements::Lookup lookup{[&](const std::string& name) {
                                         const auto [found, fresh] = tools.try_emplace(name);

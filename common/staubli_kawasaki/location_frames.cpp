@@ -13,7 +13,7 @@ namespace {
 
 /// Instructions behind which the arm stands where no location says.
 bool moves_untold(const std::string& word) {
-  constexpr std::array<std::string_view, 7> kWords{"drive", "draw", "tdraw", "home", "home2", "align", "ready"};
+  constexpr std::array<std::string_view, 8> kWords{"drive", "draw", "tdraw", "home", "home2", "align", "ready", "nest"};
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
@@ -29,6 +29,10 @@ std::string program_name(const ProgramText& text, std::size_t begin) {
   std::size_t end = begin;
   while (end < code.size() && (is_word_letter(code[end]) || code[end] == '.')) ++end;
   return lower_case(code.substr(begin, end - begin));
+}
+
+bool moves_or_tells_anew(const std::string& word) {
+  return moves_untold(word) || word == "tool" || word == "base" || word == "point" || word == "set" || word == "here";
 }
 
 void LocationFrames::begin_program(const ProgramText& text, std::size_t at, const std::string& name) {

@@ -16,6 +16,9 @@ namespace demecal::inline staubli_kawasaki {
 /// The name of a program that stands at `begin`, in small letters; points belong to it.
 std::string program_name(const ProgramText& text, std::size_t begin);
 
+/// Whether a statement of this word moves the arm to where no location says, or changes the tool or a location.
+bool moves_or_tells_anew(const std::string& word);
+
 /// What stands behind TOOL and BASE is told by words without blanks; what they mean is looked up when all is read.
 class LocationFrames {
  public:
