@@ -63,6 +63,11 @@ std::optional<Eigen::Isometry3d> frame_of(const ProgramText& text, const Bracket
   return frame;
 }
 
+/// $NULLFRAME, where no sum begins with it.
+bool is_null_frame(const ProgramText& text, std::size_t begin) {
+  return text.word_at(begin) == "$nullframe" && text.next(text.word_end(text.skip_spaces(begin))) != ':';
+}
+
 /// A frame's number; one that no controller has where the value is no such number.
 int frame_number(double value) {
   constexpr double kMost = 1e6;
@@ -79,8 +84,7 @@ bool is_line(const std::string& word) {
 
 }  // namespace
 
-KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller)
-    : text_(text), controller_(controller), given_(text) {
+KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller) : text_(text), controller_(controller) {
   text.for_each_word([&](std::size_t begin, std::size_t end) { read_data(begin, end); });
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     const auto data = data_of_.find(text.word_at(begin));
@@ -118,11 +122,13 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
     const bool part = text_.next(sign) == '.';
     if (part) sign = text_.skip_spaces(text_.word_end(text_.skip_spaces(sign + 1)));
     if (text_.next(sign) != '=' || text_.next(text_.skip_spaces(sign) + 1) == '=') return;
-    if (part || !number || text_.next(sign + 1) != '{') {
+    const bool null = is_null_frame(text_, std::min(sign + 1, code.size()));
+    if (part || !number || (text_.next(sign + 1) != '{' && !null)) {
       changed_.insert({word == "tool_data", number ? frame_number(number->value) : kAnyNumber});
       return;
     }
-    const auto frame = frame_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
+    const auto frame = null ? std::optional(Eigen::Isometry3d::Identity())
+                            : frame_of(text_, read_list(text_, text_.skip_spaces(sign + 1), '{'));
     const std::string name = numbered_name(word == "tool_data", frame_number(number->value));
     auto& data = word == "tool_data" ? tool_data_ : base_data_;
     declare(data, frame_number(number->value), frame ? KnownFrame{name, *frame, ""} : KnownFrame::computed(name));
@@ -173,8 +179,8 @@ KnownFrame KrlFrames::assigned(std::size_t at_value, const std::string& what) co
   }
   const std::string word = text_.word_at(begin);
   const std::size_t after = text_.skip_spaces(begin + word.size());
-  if ((word == "$nullframe" || word == "$world") && text_.next(after) != ':')
-    return {word, Eigen::Isometry3d::Identity(), ""};
+  if (is_null_frame(text_, begin) || (word == "$world" && text_.next(after) != ':'))
+    return {std::string(text_.code().substr(begin, word.size())), Eigen::Isometry3d::Identity(), ""};
   if ((word == "tool_data" || word == "base_data") && text_.next(after) == '[') {
     const std::size_t close = std::min(text_.code().find(']', after), text_.code().size());
     const auto number = cell_at(text_.code(), after + 1, close - std::min(close, after + 1), {});

@@ -80,7 +80,8 @@ class KrlFrames {
   GivenNumbers given_;
   std::set<std::string> any_element_;          ///< arrays of which an element is given numbers whose index is computed
   std::vector<std::size_t> never_moved_to_{};  ///< where points stand that no motion names
-  std::map<std::size_t, Motion> motions_;      ///< where each begins
+  std::vector<std::size_t> to_one_of_several_{};  ///< motions of which it is not told which numbers they go to
+  std::map<std::size_t, Motion> motions_;         ///< where each begins
 };
 
 }  // namespace demecal::inline kuka_abb_ur

@@ -26,7 +26,9 @@ std::vector<TargetUse> KrlFrames::uses_of(const std::string& stem, const std::st
   for (const PointUse& point : uses->second) {
     const bool same = index == point.index, told = same && !any_element_.contains(stem);
     if (!same && !index.empty() && !point.index.empty()) continue;
-    if (told && !given_.may_be(stem + index, target.begin(), point.use.begin)) continue;
+    const auto one = told ? given_.at(stem + index, point.use.begin, flow_) : std::nullopt;
+    if (one.value_or(target.begin()) != target.begin()) continue;
+    if (!one) to_one_of_several_.push_back(point.use.begin);
     found.push_back(point.use);
     found.back().frames = held(point.use.begin, target.is_pose());
   }
@@ -51,9 +53,10 @@ void KrlFrames::complete(Target& target) {
 }
 
 void KrlFrames::note_routines(Program& program) const {
-  flow_.note_arrivals(program);
   // A point that is given numbers is no motion to it.
   program.joints_lost_at.insert(program.joints_lost_at.end(), never_moved_to_.begin(), never_moved_to_.end());
+  program.joints_lost_at.insert(program.joints_lost_at.end(), to_one_of_several_.begin(), to_one_of_several_.end());
+  flow_.note_arrivals(program);
   if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 

@@ -139,18 +139,20 @@ bool RapidFrames::is_hidden(const std::string& name, std::size_t begin) const {
   return local != local_to_.end() && local->second != text_.source().file_at(begin);
 }
 
-KnownFrame RapidFrames::known_tool(const std::string& name, std::size_t begin) const {
-  if (is_hidden(name, begin)) return hidden("tool " + name);
-  if (changed_.contains(name)) return KnownFrame::computed("tool " + name);
+KnownFrame RapidFrames::known_tool(const std::string& written, std::size_t begin) const {
+  const std::string name = lower_case(written);
+  if (is_hidden(name, begin)) return hidden("tool " + written);
+  if (changed_.contains(name)) return KnownFrame::computed("tool " + written);
   const auto found = tools_.find(name);
-  return found != tools_.end() ? found->second : controller_.tool(name, "tool " + name);
+  return found != tools_.end() ? found->second : controller_.tool(name, "tool " + written);
 }
 
-KnownFrame RapidFrames::known_object(const std::string& name, std::size_t begin) const {
-  if (is_hidden(name, begin)) return hidden("work object " + name);
-  if (changed_.contains(name)) return KnownFrame::computed("work object " + name);
+KnownFrame RapidFrames::known_object(const std::string& written, std::size_t begin) const {
+  const std::string name = lower_case(written);
+  if (is_hidden(name, begin)) return hidden("work object " + written);
+  if (changed_.contains(name)) return KnownFrame::computed("work object " + written);
   const auto found = frames_.find(name);
-  return found != frames_.end() ? found->second : controller_.frame(name, "work object " + name);
+  return found != frames_.end() ? found->second : controller_.frame(name, "work object " + written);
 }
 
 void RapidFrames::read_move(std::size_t begin, const std::string& word, std::size_t end) {
@@ -172,8 +174,8 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
   for (std::size_t i = 1; i < ends.size(); ++i) {
     const std::size_t first = text_.skip_spaces(ends[i - 1] + 1);
     if (first >= ends[i]) continue;
-    const std::string name = lower_case(code.substr(first, std::min(text_.word_end(first), ends[i]) - first));
-    if (is_tool(name) || (i + 1 == ends.size() && !is_tool(tool))) tool = name;
+    const std::string name(code.substr(first, std::min(text_.word_end(first), ends[i]) - first));
+    if (is_tool(lower_case(name)) || (i + 1 == ends.size() && !is_tool(lower_case(tool)))) tool = name;
   }
   set_tool(use.frames, known_tool(tool, begin));
   const std::string all = lower_case(code.substr(end, ends.back() - end));
@@ -183,7 +185,7 @@ void RapidFrames::read_move(std::size_t begin, const std::string& word, std::siz
   if (option != std::string::npos) {
     const std::size_t sign = all.find(":=", option);
     const std::size_t name = sign == std::string::npos ? ends.back() : text_.skip_spaces(end + sign + 2);
-    set_frame(use.frames, known_object(lower_case(code.substr(name, text_.word_end(name) - name)), begin));
+    set_frame(use.frames, known_object(std::string(code.substr(name, text_.word_end(name) - name)), begin));
   }
   for (const TextRange& range : displaced_) {
     if (begin >= range.begin && begin < range.end)

@@ -32,8 +32,8 @@ class RapidFrames {
   void read_header(std::size_t end);
   void forget_assigned(const std::string& word, std::size_t begin, std::size_t end);
   /// Of a tool that the motion at `begin` names.
-  KnownFrame known_tool(const std::string& name, std::size_t begin) const;
-  KnownFrame known_object(const std::string& name, std::size_t begin) const;
+  KnownFrame known_tool(const std::string& written, std::size_t begin) const;
+  KnownFrame known_object(const std::string& written, std::size_t begin) const;
   bool is_hidden(const std::string& name, std::size_t begin) const;
 
   const ProgramText& text_;

@@ -112,8 +112,9 @@ class UrReader {
       elsewhere({.name = word, .place = text_.place(begin)}, word + " is handed to the function when the program runs");
     } else if (variable != variables_.literals.end() && (after == ',' || after == ')')) {
       plain_.insert(begin);
-      for (const std::size_t literal : variables_.literals_at(word, use_.begin))
-        add(literal, word, Numbers::or_expressions, hint);
+      const std::vector<std::size_t> literals = variables_.literals_at(word, use_.begin, way_.flow());
+      if (literals.size() > 1) program_.joints_lost_at.push_back(use_.begin);  // to one of them
+      for (const std::size_t literal : literals) add(literal, word, Numbers::or_expressions, hint);
     } else if (variables_.computed.contains(word) && (after == ',' || after == ')')) {
       elsewhere({.name = word, .place = text_.place(begin)}, word + " is computed when the program runs");
     } else {

@@ -73,8 +73,9 @@ std::optional<std::size_t> UrScriptVariables::only_literal(const std::string& na
                                                                         : std::nullopt;
 }
 
-std::vector<std::size_t> UrScriptVariables::literals_at(const std::string& name, std::size_t motion) const {
-  const std::optional<std::size_t> given_last = given.at(name, motion);
+std::vector<std::size_t> UrScriptVariables::literals_at(const std::string& name, std::size_t motion,
+                                                        const FrameFlow& way) const {
+  const std::optional<std::size_t> given_last = given.at(name, motion, way);
   return given_last ? std::vector{*given_last} : literals.at(name);
 }
 
@@ -90,7 +91,7 @@ std::optional<std::size_t> urscript_close(const ProgramText& text, std::size_t o
 
 UrScriptVariables urscript_variables(const ProgramText& text) {
   const std::string_view code = text.code();
-  UrScriptVariables variables{.given = GivenNumbers(text)};
+  UrScriptVariables variables;
   std::size_t header_end = 0;  // of the function whose header is being read
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     const std::string name(code.substr(begin, end - begin));

@@ -31,7 +31,7 @@ struct UrScriptVariables {
   /// The literal of a variable that is given this one and nothing else.
   std::optional<std::size_t> only_literal(const std::string& name) const;
   /// Those of a variable with literals that the motion at `motion` may go to.
-  std::vector<std::size_t> literals_at(const std::string& name, std::size_t motion) const;
+  std::vector<std::size_t> literals_at(const std::string& name, std::size_t motion, const FrameFlow& way) const;
 
   GivenNumbers given;
 };

@@ -24,6 +24,7 @@ class UrScriptWay {
   void read_word(std::size_t begin, std::size_t end);
   void set_tool(std::size_t begin, const KnownFrame& tool) { flow_.set_tool(begin, tool); }
   void finish() { flow_.finish(); }
+  const FrameFlow& flow() const { return flow_; }
 
   /// What holds for a motion, of a pose or of joints.
   StatedFrames held(std::size_t begin, bool by_pose);

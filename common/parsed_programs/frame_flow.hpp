@@ -62,6 +62,9 @@ class FrameFlow {
     std::optional<std::size_t> call{};
   };
   Held at(std::size_t offset) const;
+  /// Whether the program always comes from `begin` to `end` through what stands between them and through no routine of
+  /// its own.
+  bool is_straight(std::size_t begin, std::size_t end) const;
   /// Tells `program`, whose motions are known, the way through it, and where calls of routines that move leave unknown
   /// where the arm comes from.
   void note_arrivals(Program& program) const;

@@ -135,6 +135,22 @@ const FrameFlow::Node* FrameFlow::node_at(std::size_t offset) const {
   return next == nodes_.begin() ? nullptr : &*std::prev(next);
 }
 
+bool FrameFlow::is_straight(std::size_t begin, std::size_t end) const {
+  const Node *const first = node_at(begin), *const last = node_at(end);
+  if (first == nullptr || last == nullptr || first > last) return false;
+  const auto is_own = [&](const std::string& name) { return by_name_.contains(name); };
+  if (std::ranges::any_of(at_any_time_, is_own)) return false;
+  const auto index = [&](const Node* node) { return static_cast<std::size_t>(node - nodes_.data()); };
+  for (std::size_t i = index(first); i < index(last); ++i) {
+    if (nodes_[i].next != std::vector<std::size_t>{i + 1} || is_own(nodes_[i + 1].callee)) return false;
+  }
+  return std::ranges::none_of(nodes_, [&](const Node& node) {
+    return std::ranges::any_of(node.next, [&](std::size_t next) {
+      return next > index(first) && next <= index(last) && next != index(&node) + 1;
+    });
+  });
+}
+
 void FrameFlow::note_arrivals(Program& program) const {
   std::set<std::size_t> motions;
   for (const Target& target : program.targets) {

@@ -173,6 +173,7 @@ class AsReader {
   /// Gives targets their frames and motions, and takes those out that are no places to go to.
   void finish() {
     statements_.way().finish();
+    statements_.take_departures(text_, program_);
     std::map<std::string, std::optional<Eigen::Isometry3d>> tools;
     const AsStatements::Lookup lookup{[&](const std::string& name) {
                                         const auto [found, fresh] = tools.try_emplace(name);
@@ -185,7 +186,8 @@ class AsReader {
         text_, statements_.uses(), [&](const std::string& name) { return statements_.not_sent_to(name); }, program_);
     end_at_unknown_statements(statements_.unknown(), program_);
     std::vector<Target> targets = program_.targets, kept;
-    GivenNumbers given(text_);
+    GivenNumbers given;
+    const FrameFlow& way = statements_.way().flow();
     for (const Target& target : targets) given.give(location_key(target.name), target.begin());
     std::stable_sort(targets.begin(), targets.end(),
                      [](const Target& one, const Target& other) { return one.begin() < other.begin(); });
@@ -208,7 +210,9 @@ class AsReader {
       const bool pose = target.is_pose();
       target.frames = name.empty() ? statements_.frames_at(target.order, pose, lookup) : frames;
       std::vector<TargetUse> uses = name.empty() ? std::vector<TargetUse>{} : statements_.uses(name);
-      std::erase_if(uses, [&](const TargetUse& use) { return !given.may_be(name, target.begin(), use.begin); });
+      std::erase_if(uses, [&](const TargetUse& use) { return !given.may_be(name, target.begin(), use.begin, way); });
+      for (const TargetUse& use : uses)
+        if (!given.at(name, use.begin, way)) program_.joints_lost_at.push_back(use.begin);
       for (TargetUse& use : uses) use.frames = statements_.frames_at(use.begin, pose, lookup);
       if (!uses.empty()) take_uses(uses, target);
       kept.push_back(std::move(target));

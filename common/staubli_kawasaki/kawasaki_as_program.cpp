@@ -49,6 +49,7 @@ std::size_t find_block_step(const ProgramText& text, std::size_t begin, std::siz
 /// A step that was taught by the pendant: it has its own joints and selects one of the controller's tools.
 void AsStatements::read_block_step(const ProgramText& text, std::size_t begin, std::size_t joints, std::size_t end) {
   std::size_t first = joints;
+  departures_.end();
   block_steps_.emplace_back(begin, std::string(text.trimmed(first, end)));
   std::string tool = kBlockTool;
   for (std::size_t at = begin; at < joints; ++at) {
@@ -74,6 +75,8 @@ void AsStatements::read_line(const ProgramText& text, std::size_t begin, std::si
   if (const std::size_t joints = find_block_step(text, begin, end); joints < end)
     return read_block_step(text, begin, joints, end);
   if (is_motion(word)) return read_motion(text, word, begin, end);
+  if (departures_.read(text, begin, argument, end)) return;
+  if (moves_or_tells_anew(word)) departures_.end();
   if (word == "point" && argument < end) return read_point(text, argument, end);
   if (word == "call") return use_all(text, std::min(text.code().find('(', argument), end), end);
   if (word == "alter") displaces_ = true;
@@ -116,6 +119,7 @@ void AsStatements::read_motion(const ProgramText& text, const std::string& word,
   const std::size_t first = text.skip_spaces(text.word_end(begin)), till = find_word(text, first, end, "till");
   const std::size_t last = std::min(end_of_argument(code, first, end), till);
   if (till < end) stopped_.push_back(till);
+  departures_.end();
   if (first >= last) return;
   std::size_t trimmed = first;
   const std::string_view argument = text.trimmed(trimmed, last);
@@ -127,7 +131,10 @@ void AsStatements::read_motion(const ProgramText& text, const std::string& word,
   const std::string name = location_name(text, first, last);
   if (name.size() == argument.size()) {
     TargetUse& own = uses_[location_key(name)].emplace_back(use);
-    if (!word.ends_with("appro")) return;
+    if (!word.ends_with("appro")) {
+      if (till == end) departures_.arrive(begin, location_key(name), name);
+      return;
+    }
     std::size_t distance = std::min(last + 1, end);
     const std::string_view number = text.trimmed(distance, end_of_argument(code, distance, end));
     const auto cell = cell_at(code, distance, number.size(), {});

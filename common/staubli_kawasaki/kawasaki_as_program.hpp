@@ -15,6 +15,7 @@
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/departures.hpp"
 #include "staubli_kawasaki/location_frames.hpp"
 #include "staubli_kawasaki/location_names.hpp"
 
@@ -67,6 +68,10 @@ class AsStatements {
   /// The frames of a motion.
   StatedFrames frames_at(std::size_t motion, bool of_pose, const Lookup& lookup);
   LocationFrames& way() { return way_; }
+  /// When the way is finished: takes the motions that leave a location.
+  void take_departures(const ProgramText& text, Program& program) {
+    departures_.take(text, way_.flow(), uses_, program);
+  }
   /// The motions to every location, by its key.
   const std::map<std::string, std::vector<TargetUse>>& uses() const { return uses_; }
   /// The motions to a location of this key.
@@ -91,6 +96,7 @@ class AsStatements {
   std::optional<LocationLiteral> literal_at(const ProgramText& text, std::size_t begin, std::size_t end) const;
 
   ChangedNames changes_;
+  Departures departures_;
   std::vector<Approach> approaches_{};
   std::vector<LocationLiteral> literals_;
   std::vector<std::pair<std::size_t, std::string>> computed_, block_steps_;

@@ -13,7 +13,7 @@ namespace {
 
 /// Instructions behind which the arm stands where no location says.
 bool moves_untold(const std::string& word) {
-  constexpr std::array<std::string_view, 7> kWords{"drive", "draw", "tdraw", "home", "home2", "align", "ready"};
+  constexpr std::array<std::string_view, 8> kWords{"drive", "draw", "tdraw", "home", "home2", "align", "ready", "nest"};
   return std::find(kWords.begin(), kWords.end(), word) != kWords.end();
 }
 
@@ -29,6 +29,10 @@ std::string program_name(const ProgramText& text, std::size_t begin) {
   std::size_t end = begin;
   while (end < code.size() && (is_word_letter(code[end]) || code[end] == '.')) ++end;
   return lower_case(code.substr(begin, end - begin));
+}
+
+bool moves_or_tells_anew(const std::string& word) {
+  return moves_untold(word) || word == "tool" || word == "base" || word == "point" || word == "set" || word == "here";
 }
 
 void LocationFrames::begin_program(const ProgramText& text, std::size_t at, const std::string& name) {
@@ -75,6 +79,7 @@ void LocationFrames::read_way(const ProgramText& text, const std::string& word, 
     const std::size_t name = called < end ? text.word_end(called) : std::min(comma + 1, end);
     return flow_.call_at_any_time(program_name(text, text.skip_spaces(name)));
   }
+  if (word == "scall") return computed_call(text, begin, end);
   if (called < end) call(text, called, text.skip_spaces(text.word_end(called)));
 }
 
@@ -83,6 +88,12 @@ void LocationFrames::call(const ProgramText& text, std::size_t at, std::size_t n
   if (called.empty()) return;
   calls_[at] = std::string(text.code().substr(name, called.size()));
   flow_.call(at, called, true);
+}
+
+/// SCALL $name: which program it calls is known when it runs.
+void LocationFrames::computed_call(const ProgramText& text, std::size_t at, std::size_t end) {
+  calls_[at] = std::string(text.trimmed(at, end));
+  flow_.call(at, "scall", true);
 }
 
 LocationFrames::Words LocationFrames::at(std::size_t offset, bool of_pose) {

@@ -16,6 +16,9 @@ namespace demecal::inline staubli_kawasaki {
 /// The name of a program that stands at `begin`, in small letters; points belong to it.
 std::string program_name(const ProgramText& text, std::size_t begin);
 
+/// Whether a statement of this word moves the arm to where no location says, or changes the tool or a location.
+bool moves_or_tells_anew(const std::string& word);
+
 /// What stands behind TOOL and BASE is told by words without blanks; what they mean is looked up when all is read.
 class LocationFrames {
  public:
@@ -30,6 +33,7 @@ class LocationFrames {
     flow_.set_frame(at, {"BASE", Eigen::Isometry3d::Identity(), word});
   }
   void finish() { flow_.finish(); }
+  const FrameFlow& flow() const { return flow_; }
 
   /// A word of tool() or base(), or why none holds; both empty: none is set before.
   struct Word {
@@ -47,6 +51,7 @@ class LocationFrames {
  private:
   void read_way(const ProgramText& text, const std::string& word, std::size_t begin, std::size_t end);
   void call(const ProgramText& text, std::size_t at, std::size_t name);
+  void computed_call(const ProgramText& text, std::size_t at, std::size_t end);
 
   FrameFlow flow_{"TOOL", "BASE"};
   std::map<std::size_t, std::string> calls_{};

@@ -81,6 +81,8 @@ void Val2Statements::read_line(std::size_t begin, std::size_t end) {
   const std::string word = lower_case(code.substr(begin, word_end - begin));
   const std::size_t argument = std::min(text_.skip_spaces(word_end), end);
   if (is_motion_of_val2(word)) return read_motion(word, begin, argument, end);
+  if (departures_.read(text_, begin, argument, end)) return;
+  if (moves_or_tells_anew(word)) departures_.end();
   if (word == "set") return read_set(argument, end);
   constexpr std::array<std::string_view, 6> kConfigurations{"lefty", "righty", "above", "below", "flip", "noflip"};
   if (std::find(kConfigurations.begin(), kConfigurations.end(), word) != kConfigurations.end())
@@ -102,6 +104,7 @@ void Val2Statements::read_motion(const std::string& word, std::size_t statement,
   std::string argument(text_.trimmed(first, last));
   if (argument.ends_with('!')) argument.pop_back();  // the motion is being recorded
   const std::string name = location_name(text_, first, first + argument.size());
+  departures_.end();
   if (name.empty() || name.size() != argument.size()) {
     computed_.emplace_back(statement, argument);
     if (argument.find(':') == std::string::npos) return;
@@ -111,7 +114,7 @@ void Val2Statements::read_motion(const std::string& word, std::size_t statement,
   const bool line = word == "moves" || word == "movest" || word == "appros";
   TargetUse& own =
       uses_[location_key(name)].emplace_back(TargetUse{statement, line ? Motion::line : Motion::joints, {}});
-  if (!word.starts_with("appro")) return;
+  if (!word.starts_with("appro")) return departures_.arrive(statement, location_key(name), name);
   std::size_t distance = std::min(last + 1, end);
   const std::string_view number = text_.trimmed(distance, end);
   const auto cell = cell_at(text_.code(), distance, number.size(), {});
@@ -192,6 +195,7 @@ StatedFrames Val2Statements::frames_at(std::size_t motion, bool of_pose, StatedF
 
 void Val2Statements::complete(Program& program, const ControllerData& controller) {
   way_.finish();
+  departures_.take(text_, way_.flow(), uses_, program);
   const Program read = program;
   const StatedFrames stated = frames(program, controller);
   note_untold_locations(

@@ -11,6 +11,7 @@
 #include "parsed_programs/changed_names.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
+#include "staubli_kawasaki/departures.hpp"
 #include "staubli_kawasaki/location_frames.hpp"
 #include "staubli_kawasaki/location_names.hpp"
 
@@ -43,6 +44,7 @@ class Val2Statements {
 
   const ProgramText& text_;
   ChangedNames changes_;
+  Departures departures_{};
   LocationFrames way_{};
   std::map<std::string, KnownFrame> known_tools_{};  ///< by what stands behind TOOL
   std::vector<std::string> tools_{},

@@ -53,6 +53,63 @@ TEST(GivenNumbers, MayBeAnyWhereTheWayIsNotStraight) {
               ElementsAre(ElementsAre(6u), ElementsAre(6u)));
 }
 
+/// How many motions go to each target that is a pose.
+std::vector<std::size_t> motions_to_each(WrittenIn language, const std::string& text) {
+  std::vector<std::size_t> counts;
+  for (const auto& lines : lines_of_motions(language, text)) counts.push_back(lines.size());
+  return counts;
+}
+
+TEST(GivenNumbers, MayBeAnyBehindEveryTurnOfTheLanguage) {
+  const auto any = [](WrittenIn language, const std::string& text, const std::string& line_of_motion) {
+    const std::size_t line =
+        static_cast<std::size_t>(
+            std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(line_of_motion)), '\n')) +
+        1;
+    const Program program = read_program(language, text, "p", wrist_arm());
+    EXPECT_THAT(lines_of_motions(language, text), ElementsAre(ElementsAre(line), ElementsAre(line))) << text;
+    // It goes to one of the two, and behind it where the arm stands is not told.
+    EXPECT_THAT(program.joints_lost_at, Contains(text.find(line_of_motion))) << text;
+  };
+  for (const std::string turn : {"SWITCH x\nCASE 1\n@DEFAULT\nENDSWITCH\n", "FOR i=1 TO 2\n@ENDFOR\n",
+                                 "LOOP\nIF x THEN\nEXIT\nENDIF\n@ENDLOOP\n", "WHILE x\n@ENDWHILE\n",
+                                 "IF x THEN\nGOTO n\nENDIF\n@n:\n", "IF x THEN\nELSE\n@ENDIF\n"})
+    any(WrittenIn::krl,
+        "DEF m()\nXA=" + kKrlPose + std::string(turn).replace(turn.find('@'), 1, "XA=" + kKrlPose) + "LIN XA\nEND\n",
+        "LIN");
+  any(WrittenIn::krl,
+      "DEF m()\nINTERRUPT DECL 1 WHEN $IN[1] DO s()\nXA=" + kKrlPose + "LIN XA\nEND\nDEF s()\nXA=" + kKrlPose + "END\n",
+      "LIN");
+  for (const std::string turn :
+       {"if x:\n@elif y:\nend\n", "while x:\n@end\n", "while x:\nif y:\ncontinue\nend\n@end\n", "go()\n@go()\n"})
+    any(WrittenIn::urscript,
+        "def go():\nend\ndef m():\na" + kUrPose + std::string(turn).replace(turn.find('@'), 1, "a" + kUrPose) +
+            "movel(a)\nend\n",
+        "movel");
+  any(WrittenIn::urscript, "def m():\nthread t():\na" + kUrPose + "end\nrun t()\na" + kUrPose + "movel(a)\nend\n",
+      "movel");
+  for (const std::string turn : {"CASE x OF\nVALUE 1:\n@ANY :\nEND\n", "FOR i = 1 TO 2\n@END\n", "DO\n@UNTIL x\n",
+                                 "WHILE x DO\n@END\n", "IF x GOTO 10\n@10 TYPE 1\n", "IF x THEN\n@END\n", "@CALL s\n"})
+    any(WrittenIn::kawasaki_as,
+        ".PROGRAM m()\nPOINT a" + kAsPose + std::string(turn).replace(turn.find('@'), 1, "POINT a" + kAsPose) +
+            "LMOVE a\n.END\n.PROGRAM s()\n.END\n",
+        "LMOVE");
+  for (const std::string reaction : {"ONI 1001 CALL s", "ON 1001 CALL s", "PCEXECUTE 1: s"})
+    any(WrittenIn::kawasaki_as,
+        ".PROGRAM m()\n" + reaction + "\nPOINT a" + kAsPose + "LMOVE a\n.END\n.PROGRAM s()\nPOINT a" + kAsPose +
+            ".END\n",
+        "LMOVE");
+}
+
+TEST(GivenNumbers, AreTheLastBeforeTheMotionWhereTheWayTurnsElsewhere) {
+  EXPECT_THAT(motions_to_each(WrittenIn::krl, "DEF m()\nIF x THEN\nGOTO n\nENDIF\nXA=" + kKrlPose +
+                                                  "LIN XA\nXA=" + kKrlPose + "LIN XA\nLIN XA\nn:\nEND\n"),
+              ElementsAre(1u, 2u));
+  EXPECT_THAT(motions_to_each(WrittenIn::urscript, "def m():\nif x:\na" + kUrPose + "movel(a)\nelse:\na" + kUrPose +
+                                                       "movel(a)\nmovel(a)\nend\nend\n"),
+              ElementsAre(1u, 2u));
+}
+
 TEST(GivenNumbers, OfAnArrayOfKrlAreThoseOfTheElement) {
   const std::string given = "DEF m()\nXA[1]=" + kKrlPose + "XA[2]=" + kKrlPose;
   EXPECT_THAT(lines_of_motions(WrittenIn::krl, given + "LIN XA[1]\nPTP XA[ 2 ] C_PTP\nEND\n"),

@@ -124,9 +124,9 @@ TEST(Configuration, OfAPointThatIsMovedToAgainIsThatOfEveryMotion) {
   EXPECT_THAT(judged(of("NEAR")), ::testing::Each("joints_before"));
 }
 
-/// The sides from which the last target of a program of AS is come to, which moves from NEAR as `motions` say; "pt" is
-/// the place of POSE, "before" that 80 mm before it.
-ApproachSigns sides_behind(const std::string& motions) {
+/// The sides from which the location of this name in a program of AS is come to, which moves from NEAR as `motions`
+/// say; "pt" is the place of POSE, "before" that 80 mm before it, "between" that 40 mm before it.
+ApproachSigns sides_behind(const std::string& motions, const std::string& of = "pt") {
   RandomStream stream{7561};
   const CommandModel model = erring_model(stream, elbow_arm(stream));
   const auto location = [&](const std::string& name, double before_m) {
@@ -135,8 +135,10 @@ ApproachSigns sides_behind(const std::string& motions) {
   };
   const CorrectedProgram corrected =
       corrected_motions(WrittenIn::kawasaki_as,
-                        "@NEAR\n" + motions + ".END\n.TRANS\n" + location("before", 0.08) + location("pt", 0.0), model);
-  const auto last = std::ranges::find(corrected.program.targets, "pt", &Target::name);
+                        "@NEAR\n" + motions + ".END\n.TRANS\n" + location("before", 0.08) + location("between", 0.04) +
+                            location("pt", 0.0),
+                        model);
+  const auto last = std::ranges::find(corrected.program.targets, of, &Target::name);
   const CorrectedTarget& target =
       corrected.targets.at(static_cast<std::size_t>(last - corrected.program.targets.begin()));
   EXPECT_FALSE(target.is_uncorrected()) << motions;
@@ -149,6 +151,14 @@ TEST(Approach, OfAPointBehindAPlaceNearItIsThatFromThere) {
   EXPECT_NE(sides_behind("LMOVE pt\n"), written_out) << "the place before it matters";
   EXPECT_TRUE(sides_behind("JAPPRO pt,d\nLMOVE pt\n").isZero()) << "the distance is not told";
   EXPECT_EQ(sides_behind("LMOVE pt\nJAPPRO pt,80\n"), sides_behind("LMOVE pt\n")) << "it leaves from there";
+}
+
+TEST(Approach, BehindADepartureIsThatFromThePlaceThatItLeadsTo) {
+  const auto sides_of = [](const std::string& motions) { return sides_behind(motions + "LMOVE between\n", "between"); };
+  const ApproachSigns written_out = sides_of("LMOVE pt\nLMOVE before\n");
+  EXPECT_EQ(sides_of("LMOVE pt\nLDEPART 80\n"), written_out);
+  EXPECT_NE(sides_of("LMOVE pt\n"), written_out) << "the place that it leads to matters";
+  EXPECT_TRUE(sides_of("LMOVE pt\nLDEPART d\n").isZero()) << "the distance is not told";
 }
 
 /// What is said of the program as a whole.

@@ -38,14 +38,19 @@ TEST(KrlFrames, AreThoseThatHoldWhereTheMotionStands) {
                {0.015, 0.0, 0.0});
   expect_point(only_target(WrittenIn::krl, "BASE_DATA[2]={X 5,Y 0,Z 0,A 0,B 0,C 0}\nBAS(#BASE,2)\n" + lin),
                {0.015, 0.0, 0.0});
-  expect_point(only_target(WrittenIn::krl, "$BASE=$NULLFRAME\n" + lin), {0.01, 0.0, 0.0});
+  for (const char* null : {"$BASE=$NULLFRAME\n", "BASE_DATA[2]=$NULLFRAME ; none\n$BASE=BASE_DATA[2]\n",
+                           "BASE_DATA[2] = $nullframe\nBAS(#BASE,2)\n"})
+    expect_point(only_target(WrittenIn::krl, null + lin), {0.01, 0.0, 0.0});
+  const Target bare = only_target(WrittenIn::krl, "TOOL_DATA[3]=$NULLFRAME\n$TOOL=TOOL_DATA[3]\n" + lin);
+  EXPECT_TRUE(bare.frames.tool.has_value() && bare.frames.tool->translation().isZero(0.0));
   EXPECT_EQ(target.motion, Motion::line);
 }
 
 TEST(KrlFrames, ThatAreComputedAreUnknown) {
   const std::string lin = "LIN {X 10,Y 0,Z 0,A 0,B 0,C 0}\n";
   for (const char* statement : {"$BASE=my_base\n", "$BASE=BASE_DATA[3]\n", "BAS(#BASE,n)\n", "$BASE.X=5\n",
-                                "$BASE=$WORLD:shift\n", "$BASE={X x1,Y 0,Z 0,A 0,B 0,C 0}\n", "FDAT_ACT=somewhere\n"}) {
+                                "$BASE=$WORLD:shift\n", "BASE_DATA[3]=$NULLFRAME:shift\n$BASE=BASE_DATA[3]\n",
+                                "$BASE={X x1,Y 0,Z 0,A 0,B 0,C 0}\n", "FDAT_ACT=somewhere\n"}) {
     EXPECT_NE(only_target(WrittenIn::krl, statement + lin).frames.unknown_frame, "") << statement;
   }
   EXPECT_NE(only_target(WrittenIn::krl, "BAS(#TOOL,4)\n" + lin).frames.unknown_tool, "");
@@ -95,8 +100,10 @@ TEST(RapidFrames, ThatAreComputedOrUnknownAreSaid) {
               HasSubstr("is computed"));
   EXPECT_THAT(frame("PERS " + object + point + "MoveL p,v1,fine,tool0\\WObj:=w;\nMoveL p,v1,fine,tool0;\n"),
               HasSubstr("different frames"));
-  EXPECT_THAT(only_target(WrittenIn::rapid, point + "MoveL p,v1,fine,gripper;\n").frames.unknown_tool,
-              HasSubstr("tool gripper is given neither"));
+  EXPECT_THAT(only_target(WrittenIn::rapid, point + "MoveL p,v1,fine,tGripper;\n").frames.unknown_tool,
+              HasSubstr("tool tGripper is given neither"));
+  EXPECT_THAT(frame(point + "MoveL p,v1,fine,tool0\\WObj:=wTable;\n"),
+              HasSubstr("work object wTable is given neither"));
 }
 
 TEST(UrScriptFrames, AreTheToolsOfSetTcp) {
