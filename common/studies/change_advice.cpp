@@ -10,6 +10,7 @@
 #include "kinematics/units.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "parameters/declared_model.hpp"
+#include "updating/implausible_change.hpp"
 
 namespace demecal::inline studies {
 namespace {
@@ -104,6 +105,14 @@ std::vector<std::string> advice_on_joints(const ChangeReport& change) {
   return advice;
 }
 
+/// Nothing if the change is no larger than changes are.
+std::string caution_on_size(const ChangeReport& change) {
+  if (!is_far_beyond_usual(change)) return {};
+  return "This is far more than wear or a usual collision leaves: no program may run before it is put right. Poses of "
+         "another robot, a robot file of another version of this one, or the model of another arm can look like "
+         "this, too: compare their serial numbers first. ";
+}
+
 /// Of everything that was found, the arm before its base.
 std::string what_to_do_about_found(const ChangeReport& change, const std::string& model_file) {
   std::vector<std::string> advice = advice_on_joints(change);
@@ -111,7 +120,8 @@ std::string what_to_do_about_found(const ChangeReport& change, const std::string
     advice.push_back("Look at the tool and its target: straighten or exchange it, or measure its tool point again");
   if (advice.empty())
     advice.push_back("The robot itself is as it was: find the base's frame again where programs rely on it");
-  return fmt::format("{}. {} the model up to date: demecal diagnose DATASET.yaml --prior {}.", fmt::join(advice, ". "),
+  return fmt::format("{}{}. {} the model up to date: demecal diagnose DATASET.yaml --prior {}.",
+                     caution_on_size(change), fmt::join(advice, ". "),
                      any_is(change, has_fallen) ? "Bring" : "Or bring", model_file);
 }
 

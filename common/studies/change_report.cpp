@@ -19,6 +19,7 @@
 #include "next_measurement/next_measurement.hpp"
 #include "report/history.hpp"
 #include "studies/change_advice.hpp"
+#include "updating/implausible_change.hpp"
 
 namespace demecal::inline studies {
 namespace {
@@ -82,6 +83,7 @@ std::string to_json(const ChangeReport& change, const DataSet& data, const std::
             {"poses", change.poses},
             {"measurements", change.measurements},
             {"set_up_anew", change.set_up_anew},
+            {"far_beyond_usual", is_far_beyond_usual(change)},
             {"p_any", change.p_any},
             {"strain", change.strain},
             {"strain_limit", change.strain_limit},

@@ -70,6 +70,7 @@ struct ChangeReport {
   std::vector<std::string> lacking;       ///< sentences: what of the model poses do not let it apply
   bool unnamed = false;                   ///< changed, but by nothing that was tried
   bool more = false;                      ///< what was found leaves more than an unchanged robot would
+  bool implausible = false;               ///< the check of the data takes them for those of another robot
 };
 
 /// Holds the model's predictions against all poses of `data` that measured positions or distances, repeats of one as

@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -16,12 +17,14 @@
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
 #include "html/page.hpp"
+#include "kinematics/units.hpp"
 #include "report/evaluation.hpp"
 #include "studies/change_report.hpp"
 #include "terminal/report_text.hpp"
 #include "trials/finding.hpp"
 #include "updating/change.hpp"
 #include "updating/fleet_model.hpp"
+#include "updating/implausible_change.hpp"
 #include "workflows/workflows.hpp"
 #include "yaml/files.hpp"
 
@@ -67,6 +70,31 @@ void keep(const CheckRequest& request, CheckRecord check, std::vector<CheckRecor
              records.size() == 1 ? "" : "s");
 }
 
+/// The finding that the data are of another robot, if nothing else is wrong with them as a whole.
+const Finding* other_robot_alone(const DataCheck& check) {
+  const Finding* other = nullptr;
+  for (const Finding& finding : check.findings) {
+    if (!contradicts(finding.kind)) continue;
+    if (finding.kind != FindingKind::other_robot) return nullptr;
+    other = &finding;
+  }
+  return other;
+}
+
+/// The check of the data knows the robot's description, not its model, and no zero that is off by degrees: where those
+/// of `other` are a change of the model's robot that can be named, this is it.
+std::optional<ChangeReport> change_in_place_of(const Finding& other, const CalibratedModel& model,
+                                               const CheckedData& checked) {
+  try {
+    ChangeReport change = find_change(model, checked.data, suspects(checked.check));
+    if (!explains_implausible(change, metres(other.as_given_mm))) return std::nullopt;
+    change.implausible = true;
+    return change;
+  } catch (const InputError&) {  // too few poses
+    return std::nullopt;
+  }
+}
+
 ExitCode run_check(const CheckRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
   require_one_robot(model, request.model_file, "check");
@@ -74,10 +102,16 @@ ExitCode run_check(const CheckRequest& request) {
   const DataSet& data = checked.data;
   require_positions(data, "check");
   require_same_nominal_arm(model, data);
-  if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
-  fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
+  const Finding* other = other_robot_alone(checked.check);
+  std::optional<ChangeReport> instead = other == nullptr ? std::nullopt : change_in_place_of(*other, model, checked);
+  DataCheck shown = checked.check;
+  if (instead)
+    std::erase_if(shown.findings, [](const Finding& one) { return one.kind == FindingKind::other_robot; });
+  else if (refuses(checked, request.force, ShownFindings::all))
+    return ExitCode::contradiction;
+  fmt::print(stderr, "{}", to_terminal(data_check_entry(shown), ShownFindings::all));
   const std::vector<CheckRecord> history = history_of(request, model);
-  const ChangeReport change = find_change(model, data, suspects(checked.check));
+  const ChangeReport change = instead ? *std::move(instead) : find_change(model, data, suspects(checked.check));
   if (!request.history.empty()) keep(request, check_record(change, data, model, request.model_file, today()), history);
   fmt::print("{}",
              request.json ? to_json(change, data, request.model_file) : change_text(change, data, request.model_file));

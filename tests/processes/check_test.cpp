@@ -112,5 +112,28 @@ TEST(Check, TellsARobotThatChangedHoweverMuch) {
   }
 }
 
+TEST(Check, NamesAZeroThatIsSoFarOffThatTheDataLookLikeThoseOfAnotherRobot) {
+  Checked robot;
+  const auto moved = [](double by_deg) {
+    return [by_deg](std::size_t, const std::string& column, const std::string& cell) {
+      return column == "q5_deg" ? std::to_string(std::stod(cell) - by_deg)
+             : column == "x_mm" ? std::to_string(std::stod(cell) + 3.0)
+                                : cell;
+    };
+  };
+  const Ended zero = robot.check(moved(30.0));
+  EXPECT_EQ(zero.code, 13) << zero.err;
+  EXPECT_TRUE(says(zero.out, "The zero of joint 5 is off by 52")) << zero.out;
+  EXPECT_TRUE(says(zero.out, "far more than wear")) << zero.out;
+  EXPECT_TRUE(says(zero.out, "master it again")) << zero.out;
+  EXPECT_FALSE(says(zero.err, "not of this robot")) << zero.err;
+  EXPECT_TRUE(says(robot.check(moved(30.0), {"--json"}).out, "\"far_beyond_usual\":true"));
+  const Ended other = robot.check([](std::size_t, const std::string& column, const std::string& cell) {
+    return column == "q3_deg" ? scaled(cell, 0.8) : cell;
+  });
+  EXPECT_EQ(other.code, 12) << other.out;
+  EXPECT_TRUE(says(other.err, "not of this robot")) << other.err;
+}
+
 }  // namespace
 }  // namespace demecal

@@ -64,6 +64,17 @@ TEST(ChangeReport, AdvisesOnEverythingThatWasFound) {
   EXPECT_TRUE(says(change, "before work on joints 2 and 3"));
 }
 
+TEST(ChangeReport, SaysThatSoMuchMayBeAnotherRobot) {
+  ChangeReport change;
+  change.verdict = ChangeVerdict::changed;
+  change.found = {zero_of(2)};
+  EXPECT_FALSE(says(change, "far more than"));
+  change.implausible = true;
+  EXPECT_TRUE(says(change, "This is far more than wear or a usual collision leaves"));
+  EXPECT_TRUE(says(change, "Poses of another robot"));
+  EXPECT_TRUE(says(change, "Look at joint 2: where a zero has moved, master it again"));
+}
+
 ChangeCause lost_motion_of(int joint, double by_model_rad, double size_rad) {
   ChangeCause cause;
   cause.effect = {.kind = "backlash", .joint = joint - 1, .form = "approach", .values = {size_rad}};
