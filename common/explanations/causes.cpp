@@ -104,6 +104,7 @@ std::string advice_on(const ErrorCause& cause, const CorrectedRobot& robot) {
     if (one.empty()) one = group_words(cause.group).advice;
     if (std::ranges::find(all, one) == all.end()) all.push_back(one);
   }
+  if (all.empty()) return std::string(group_words(cause.group).advice);
   std::string text;
   for (const std::string_view one : all) text += (text.empty() ? "" : " ") + std::string(one);
   return text;

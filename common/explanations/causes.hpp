@@ -32,7 +32,7 @@ std::vector<ErrorCause> causes_of(const CorrectedRobot& robot);
 std::string_view to_string(CauseGroup group);
 /// "gears of joint 2", for people.
 std::string to_string(const ErrorCause& cause);
-/// What to do about it: a sentence or two.
+/// What to do about it: a sentence or two. Of a cause without effects what is usual of its group.
 std::string advice_on(const ErrorCause& cause, const CorrectedRobot& robot);
 
 }  // namespace demecal::inline explanations

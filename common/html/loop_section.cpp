@@ -59,6 +59,12 @@ std::string causes_table(const Report& report) {
              judging_set(report));
 }
 
+/// What no cause explains.
+std::string unexplained_paragraph(const Report& report) {
+  if (!report.unexplained) return {};
+  return paragraph(escaped(unexplained_sentence(*report.unexplained) + ' ' + report.unexplained->advice));
+}
+
 /// The best model of every number of causes.
 std::string front_table(const Report& report) {
   if (report.front.size() < 3) return {};
@@ -198,9 +204,10 @@ std::string pictures(const Report& report) {
 
 std::string loop_section(const Report& report) {
   return section("loop", "What the model lacked",
-                 causes_table(report) + front_table(report) + loop_summary(report) + rounds_table(report) +
-                     dropped(report) + pictures(report) + next_measurements_list(report) + evidence_table(report) +
-                     not_found_table(report) + untestable_table(report) + decoys_table(report));
+                 causes_table(report) + unexplained_paragraph(report) + front_table(report) + loop_summary(report) +
+                     rounds_table(report) + dropped(report) + pictures(report) + next_measurements_list(report) +
+                     evidence_table(report) + not_found_table(report) + untestable_table(report) +
+                     decoys_table(report));
 }
 
 }  // namespace demecal::inline html

@@ -32,6 +32,13 @@ namespace demecal::inline report {
 namespace {
 
 constexpr double kAsOne = 0.98;  ///< cosine above which an effect goes by the name of its class
+/// The same of a formula and what the catalogue has: of the two a known cause is the likelier, however short the
+/// formula.
+constexpr double kAsKnown = 0.9;
+
+bool is_of_catalogue(const std::string& kind) {
+  return rarity(kind) < causes().size() && cause_of(kind).group != CauseGroup::formula;
+}
 
 /// The names and units of the coefficients; none for a kind that is not of the catalogue.
 std::vector<CoefficientLabel> labels_of(const Effect& effect, const Robot& robot) {
@@ -125,18 +132,31 @@ std::optional<double> if_any(const std::optional<double>& value) {
 }
 
 /// Other causes that effects in the class of one of these belong to.
-std::vector<std::string> alternatives_to(const ErrorCause& cause, const std::vector<std::string>& effects,
-                                         const std::vector<RoundEntry>& rounds) {
-  std::vector<std::string> names;
+std::vector<ErrorCause> alternatives_to(const ErrorCause& cause, const std::vector<std::string>& effects,
+                                        const std::vector<RoundEntry>& rounds) {
+  std::vector<ErrorCause> others;
   for (const RoundEntry& round : rounds) {
     if (!round.added() || std::ranges::find(effects, round.effect.name()) == effects.end()) continue;
     for (const ClassMember& member : round.members) {
       const ErrorCause other = cause_at(member.kind, member.joint ? static_cast<int>(*member.joint) - 1 : -1);
-      const std::string name = to_string(other);
-      if (!other.is_same_as(cause) && std::ranges::find(names, name) == names.end()) names.push_back(name);
+      const auto is_it = [&](const ErrorCause& one) { return one.is_same_as(other); };
+      if (!other.is_same_as(cause) && std::ranges::none_of(others, is_it)) others.push_back(other);
     }
   }
-  return names;
+  return others;
+}
+
+/// A formula that does what a known cause does goes by that one's name, if that is not among the causes itself.
+void name_as_known(const ErrorBudget& budget, const CorrectedRobot& robot, std::vector<ErrorCause>& others,
+                   CauseEntry& entry, ErrorCause formula) {
+  if (formula.group != CauseGroup::formula || formula.effects.size() != 1 || others.empty()) return;
+  const ErrorCause known = others.front();
+  if (std::ranges::any_of(budget.causes, [&](const CauseCost& cost) { return cost.cause.is_same_as(known); })) return;
+  others.front() = std::move(formula);
+  entry.cause = std::string(to_string(known.group));
+  entry.name = to_string(known);
+  entry.advice = advice_on(known, robot) + " The model holds a formula that describes it a little better.";
+  entry.joint = known.joint >= 0 ? std::optional(as_count(known.joint) + 1) : std::nullopt;
 }
 
 }  // namespace
@@ -202,7 +222,8 @@ std::vector<ClassMember> effect_class(const EffectEntry& effect, const std::vect
     const auto is_it = [&one = rival](const ClassMember& member) {
       return member.kind == one.kind && member.joint == one.joint;
     };
-    if (cosine > kAsOne && std::ranges::none_of(members, is_it)) members.push_back({rival.kind, rival.joint});
+    const double least = !is_of_catalogue(effect.kind) && is_of_catalogue(rival.kind) ? kAsKnown : kAsOne;
+    if (cosine > least && std::ranges::none_of(members, is_it)) members.push_back({rival.kind, rival.joint});
   }
   if (members.size() < 2) return {};
   std::ranges::stable_sort(members, [](const ClassMember& a, const ClassMember& b) {
@@ -237,7 +258,9 @@ void set_causes(const ErrorBudget& budget, const CorrectedRobot& robot, const Ro
     if (cost.cause.joint >= 0) entry.joint = as_count(cost.cause.joint) + 1;
     for (const std::size_t effect : cost.cause.effects)
       entry.effects.push_back(effect_entry(robot.effects[effect], described).name());
-    entry.alternatives = alternatives_to(cost.cause, entry.effects, report.rounds);
+    std::vector<ErrorCause> others = alternatives_to(cost.cause, entry.effects, report.rounds);
+    name_as_known(budget, robot, others, entry, cost.cause);
+    for (const ErrorCause& other : others) entry.alternatives.push_back(to_string(other));
     if (may_be_lost_motion(cost.cause, robot, report)) {
       entry.alternatives.push_back(to_string(ErrorCause{.group = CauseGroup::lost_motion, .joint = cost.cause.joint}));
       entry.advice =

@@ -242,6 +242,7 @@ Report make_report(const Conclusions& run) {
   report.noise_floor_mm = noise_floor_mm(data);
   set_loop(run.loop, model.nominal, report);
   set_causes(run.calibration.budget, model.robot, model.nominal, report);
+  report.unexplained = unexplained_error(report);
   report.performance_index_mm2 = {if_finite(run.calibration.index_before_mm2),
                                   if_finite(run.calibration.index_after_mm2)};
   if (has_joints(model))

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "expression/bound.hpp"
+#include "report/left_error.hpp"
 #include "report/pose_places.hpp"
 
 namespace demecal::inline report {
@@ -178,13 +179,6 @@ struct DecoyEntry {
   bool won = false;
 };
 
-/// Components of the measurements' noise: 0 where there is none of the kind.
-struct NoiseEntry {
-  std::optional<double> independent_mm;
-  bool estimated = false;  ///< else poses were taken to scatter independently
-  std::optional<double> joint_repeatability_mrad, shared_by_repeats_mm, shared_in_order_mm, correlation_in_order;
-};
-
 /// The errors of the poses that one station measured.
 struct StationEntry {
   std::string name;
@@ -270,6 +264,7 @@ struct Report {
   std::optional<double> noise_floor_mm;  ///< standard deviation of repeats per axis, where there are repeats
   std::vector<CauseEntry> causes;        ///< of what the loop added, the costliest first
   std::vector<FrontEntry> front;         ///< from no cause to all
+  std::optional<UnexplainedEntry> unexplained{};
   std::vector<RoundEntry> rounds;
   std::vector<EffectEntry> dropped;  ///< added, and taken back
   std::vector<NotFoundEntry> not_found;

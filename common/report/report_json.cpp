@@ -184,6 +184,11 @@ void fields(auto& visit, Like<CauseEntry> auto& cause) {
         "alternatives", cause.alternatives);
 }
 
+void fields(auto& visit, Like<UnexplainedEntry> auto& unexplained) {
+  visit("error_mm", unexplained.error_mm, "left_mm", unexplained.left_mm, "noise_mm", unexplained.noise_mm, "advice",
+        unexplained.advice);
+}
+
 void fields(auto& visit, Like<FrontEntry> auto& point) {
   visit("causes", point.causes, "validation_rms_mm", point.validation_rms_mm, "accept_rms_mm", point.accept_rms_mm,
         "chosen", point.chosen);
@@ -208,11 +213,11 @@ bool has_figures(const ErrorBySet& errors) {
 }
 
 void loop_fields(auto& visit, Like<Report> auto& report) {
-  visit("causes", report.causes, "front", report.front, "rounds", report.rounds, "dropped", report.dropped, "not_found",
-        report.not_found, "unseen", report.untestable, "considered", report.considered, "decoys", report.decoys,
-        "stopped", report.stopped, "lack_of_fit_p", report.lack_of_fit_p, "explained_share", report.explained_share,
-        "structure_left_p", report.structure_left_p, "noise", report.noise, "candidates", report.candidates,
-        "permutations", report.null_draws);
+  visit("causes", report.causes, "front", report.front, "unexplained", report.unexplained, "rounds", report.rounds,
+        "dropped", report.dropped, "not_found", report.not_found, "unseen", report.untestable, "considered",
+        report.considered, "decoys", report.decoys, "stopped", report.stopped, "lack_of_fit_p", report.lack_of_fit_p,
+        "explained_share", report.explained_share, "structure_left_p", report.structure_left_p, "noise", report.noise,
+        "candidates", report.candidates, "permutations", report.null_draws);
 }
 
 void fields(auto& visit, Like<Report> auto& report) {

@@ -180,9 +180,14 @@ std::string dropped_line(const Report& report) {
   return names.empty() ? names : wrapped("  added, and taken back:", names, 4);
 }
 
+std::string unexplained_lines(const Report& report) {
+  if (!report.unexplained) return {};
+  return wrapped(" ", unexplained_sentence(*report.unexplained) + ' ' + report.unexplained->advice, 4);
+}
+
 /// What it comes to, for who asks what to do about it.
 std::string causes_lines(const Report& report) {
-  if (report.causes.empty()) return {};
+  if (report.causes.empty()) return unexplained_lines(report) + (report.unexplained ? "\n" : "");
   std::string text = fmt::format("  causes, by the rise of the error on {} poses without each\n", judging_set(report));
   for (std::size_t i = 0; i < report.causes.size(); ++i) {
     const std::string number = fmt::format("{:>5}.", i + 1);
@@ -194,7 +199,7 @@ std::string causes_lines(const Report& report) {
     if (first == i) text += wrapped(std::string(kIndent - 1, ' '), advice, kIndent);
   }
   const std::string fewer = front_sentence(report);
-  return text + (fewer.empty() ? "" : wrapped(" ", fewer, 4)) + "\n";
+  return text + unexplained_lines(report) + (fewer.empty() ? "" : wrapped(" ", fewer, 4)) + "\n";
 }
 
 }  // namespace

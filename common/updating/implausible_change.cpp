@@ -13,7 +13,7 @@ bool is_zero(const ChangeCause& cause) {
   return declared_flag(cause.effect.kind) == &DeclaredModel::joint_offset;
 }
 
-bool is_place(const ChangeCause& cause) {
+bool is_of_places(const ChangeCause& cause) {
   return cause.is_registration || is_zero(cause) || declared_flag(cause.effect.kind) == &DeclaredModel::tool;
 }
 
@@ -21,7 +21,7 @@ bool is_place(const ChangeCause& cause) {
 
 bool explains_implausible(const ChangeReport& change, double implausible_m) {
   constexpr double kMost = 0.5;
-  return !change.found.empty() && !change.more && !change.unnamed && std::ranges::all_of(change.found, is_place) &&
+  return !change.found.empty() && !change.more && !change.unnamed && std::ranges::all_of(change.found, is_of_places) &&
          change.left_m < kMost * implausible_m;
 }
 

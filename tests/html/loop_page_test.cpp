@@ -57,6 +57,13 @@ TEST(LoopPage, HasEveryRoundWithItsFiguresAndSentences) {
   }
 }
 
+TEST(LoopPage, EndsTheCausesWithWhatNoneExplains) {
+  Report report = made_up_looped_report(2);
+  EXPECT_THAT(loop_page_of(report), Not(HasSubstr("Not explained")));
+  report.unexplained = UnexplainedEntry{.error_mm = 0.26, .left_mm = 0.3, .noise_mm = 0.15, .advice = "Measure more."};
+  EXPECT_THAT(loop_page_of(report), HasSubstr("of which noise makes 0.150 mm. Measure more."));
+}
+
 TEST(LoopPage, HasTheNumbersBehindARound) {
   const auto rows = rows_of(loop_page_of(made_up_looped_report()), "evidence");
   EXPECT_THAT(rows[0], ElementsAre("1", "dq2 = formula 1", "width_rad 0.000412 ± 1.3e-05, 0.0003708 to 0.0004532",

@@ -174,8 +174,15 @@ TEST(EffectClass, IsNoneWhereNoRivalIsAsGood) {
   EXPECT_EQ(class_sentence({}), "");
 }
 
-/// The only cause of an arm with one effect, by poses that show the kinds but `unseen`.
-CauseEntry cause_of_one(Effect effect, const std::vector<std::string>& unseen) {
+TEST(EffectClass, HoldsWhatTheCatalogueHasBesideAFormulaThatDoesNearlyTheSame) {
+  EXPECT_EQ(class_of("symbolic", 3, {rival("thermal_offset", 3, 0.95), rival("symbolic", 3, 0.95)}).size(), 2u);
+  EXPECT_TRUE(class_of("symbolic", 3, {rival("thermal_offset", 3, 0.89)}).empty());
+  EXPECT_TRUE(class_of("thermal_offset", 3, {rival("symbolic", 3, 0.95)}).empty()) << "that is known";
+}
+
+/// The only cause of an arm with one effect, by poses that show the kinds but `unseen`; `rounds` added it.
+CauseEntry cause_of_one(Effect effect, const std::vector<std::string>& unseen,
+                        const std::vector<RoundEntry>& rounds = {}) {
   Robot described;
   described.chain.joints.resize(6);
   CorrectedRobot robot;
@@ -184,6 +191,7 @@ CauseEntry cause_of_one(Effect effect, const std::vector<std::string>& unseen) {
   ErrorBudget budget;
   budget.causes = {{.cause = causes_of(robot).front()}};
   Report report;
+  report.rounds = rounds;
   for (const std::string& kind : unseen) report.untestable.push_back({kind, "not recorded"});
   set_causes(budget, robot, described, report);
   return report.causes.at(0);
@@ -197,6 +205,23 @@ TEST(CauseEntry, MayBeLostMotionWhereSidesAreNotRecorded) {
   EXPECT_TRUE(cause_of_one(gain, {"drift"}).alternatives.empty());
   const Effect ripple{.kind = "gear_harmonic", .joint = 1, .settings = {{"ratio", 50.0}}, .values = {1e-4, 0.0}};
   EXPECT_TRUE(cause_of_one(ripple, {"backlash"}).alternatives.empty()) << "no side follows that";
+}
+
+TEST(CauseEntry, OfAFormulaGoesByTheKnownCauseThatDoesNearlyTheSame) {
+  const Effect formula{.kind = "symbolic", .joint = 2, .values = {1e-4}};
+  RoundEntry round;
+  round.verdict = "added";
+  round.effect = effect_entry(formula, made_up_arm());
+  const CauseEntry unknown = cause_of_one(formula, {}, {round});
+  EXPECT_EQ(unknown.cause, "formula");
+  EXPECT_EQ(unknown.joint, 3u);
+  round.members = {{"thermal_offset", 3}, {"symbolic", 3}};
+  const CauseEntry known = cause_of_one(formula, {}, {round});
+  EXPECT_EQ(known.cause, "heat");
+  EXPECT_FALSE(known.joint) << "of the whole arm";
+  EXPECT_EQ(known.alternatives, std::vector<std::string>{unknown.name});
+  EXPECT_NE(known.advice.find("a formula that describes it a little better"), std::string::npos);
+  EXPECT_GT(known.advice.size(), 80u) << "and what to do about heat: " << known.advice;
 }
 
 TEST(CauseEntry, SaysWhereASignIsNoArms) {

@@ -93,6 +93,19 @@ TEST(LoopJson, HasTheTestsOfTheWholeModel) {
   EXPECT_EQ(report["candidates"], 1312);
 }
 
+TEST(LoopJson, HasWhatNoCauseExplains) {
+  Report report = made_up_looped_report();
+  EXPECT_TRUE(written(report)["unexplained"].is_null());
+  report.unexplained = UnexplainedEntry{.error_mm = 0.26, .left_mm = 0.3, .noise_mm = 0.15, .advice = "Measure more."};
+  const Parsed unexplained = written(report)["unexplained"];
+  EXPECT_EQ(unexplained,
+            Parsed({{"error_mm", 0.26}, {"left_mm", 0.3}, {"noise_mm", 0.15}, {"advice", "Measure more."}}));
+  const Report back = read_report(to_json(report), "report.json");
+  ASSERT_TRUE(back.unexplained);
+  EXPECT_EQ(back.unexplained->error_mm, 0.26);
+  EXPECT_EQ(back.unexplained->advice, "Measure more.");
+}
+
 TEST(LoopJson, SaysThatTheLoopDidNotRun) {
   const Parsed report = written(made_up_report());
   EXPECT_EQ(report["stopped"], "not_run");

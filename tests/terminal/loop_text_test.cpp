@@ -48,6 +48,18 @@ TEST(LoopTerminal, HasALineForEveryEffectAddedWithItsFigures) {
   EXPECT_THAT(text, HasSubstr("0.412 mrad"));
 }
 
+TEST(LoopTerminal, EndsTheCausesWithWhatNoneExplains) {
+  Report report = made_up_looped_report(made_up_loop(1));
+  EXPECT_THAT(unbroken(loop_to_terminal(report)), Not(HasSubstr("Not explained")));
+  report.unexplained = UnexplainedEntry{.error_mm = 0.26, .left_mm = 0.3, .noise_mm = 0.15, .advice = "Measure more."};
+  const std::string text = unbroken(loop_to_terminal(report));
+  EXPECT_THAT(text, HasSubstr("of which noise makes 0.150 mm. Measure more."));
+  EXPECT_LT(text.find("causes, by the rise"), text.find("Not explained: 0.260 mm"));
+  EXPECT_LT(text.find("Not explained"), text.find("effect added"));
+  report.causes.clear();
+  EXPECT_THAT(unbroken(loop_to_terminal(report)), HasSubstr("Not explained: 0.260 mm"));
+}
+
 TEST(LoopTerminal, NamesRivalsAndTheMeasurementThatWouldSplitThem) {
   const std::string text = unbroken(shown(made_up_loop(5)));
   EXPECT_THAT(text, HasSubstr("cannot be distinguished with these poses from: hysteresis, joint 2 (cosine 0.93)"));
