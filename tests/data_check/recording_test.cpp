@@ -42,8 +42,10 @@ TEST(Recording, WhatIsRoundedCoarselyIsNamed) {
     for (MeasuredPose& pose : joints.poses) pose.joints[1] = rounded_to(pose.joints[1], radians(1.0));
     const DataCheck check = check_data(joints);
     ASSERT_TRUE(check.has(FindingKind::coarse_values)) << right.robot.name;
-    for (const Finding& finding : check.findings)
-      if (finding.kind == FindingKind::coarse_values) EXPECT_EQ(finding.joint, 1) << finding.sentence;
+    for (const Finding& finding : check.findings) {
+      if (finding.kind != FindingKind::coarse_values) continue;
+      EXPECT_EQ(finding.joint, 1) << finding.sentence;
+    }
   }
 }
 
