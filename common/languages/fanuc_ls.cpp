@@ -186,6 +186,7 @@ class FanucReader {
       const BracketItem& value = words->second.value;
       target.hint.configuration = text_.text().substr(value.begin, value.size);
       std::erase_if(target.hint.configuration, [](char letter) { return letter == ' ' || letter == '\t'; });
+      target.hint.counted_turns = {0, 3, 5};
     }
   }
 

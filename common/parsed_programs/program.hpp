@@ -37,6 +37,8 @@ struct ArmHint {
   /// Of shoulder, elbow and wrist, where words do not state all of them; empty: none is stated. The words of
   /// `configuration` are then those of the three, a blank between them.
   std::vector<PartHint> parts{};
+  /// The joints, from 0, of which the words also state whether they are beyond half a turn, or by how many turns.
+  std::vector<std::size_t> counted_turns{};
   bool empty() const {
     return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty() && parts.empty();
   }

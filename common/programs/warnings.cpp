@@ -85,13 +85,6 @@ void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, s
   }
 }
 
-void check_configuration(const Target& target, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
-  if (!target.is_pose() || target.hint.empty()) return;
-  if (contradictions(target.hint, corrected.command) > 0) {
-    sentences.emplace_back("the correction takes a joint out of the configuration that is stated");
-  }
-}
-
 /// What should be known of a tool that the user names for this program.
 void check_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std::vector<std::string>& sentences) {
   constexpr double kAnother = 1e-4;  ///< m
@@ -150,7 +143,7 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected,
+std::vector<std::string> warnings_of(const Target& /*target*/, const CorrectedTarget& corrected,
                                      const CommandModel& model) {
   if (corrected.outcome == CorrectionOutcome::no_joints) {
     return {"the nominal robot does not reach the pose; it is left as it is"};
@@ -163,7 +156,6 @@ std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget
     check_range(joint, link, corrected, model, sentences);
   }
   check_bounds(corrected, model, sentences);
-  check_configuration(target, corrected, sentences);
   if (corrected.outcome == CorrectionOutcome::nearest) {
     sentences.push_back("the model has no exact inverse here; " + fixed_text(millimetres(corrected.residual_m), 4) +
                         " mm of position error and " + fixed_text(degrees(corrected.residual_rad), 4) +
