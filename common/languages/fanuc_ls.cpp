@@ -187,6 +187,7 @@ class FanucReader {
       target.hint.configuration = text_.text().substr(value.begin, value.size);
       std::erase_if(target.hint.configuration, [](char letter) { return letter == ' ' || letter == '\t'; });
       target.hint.counted_turns = {0, 3, 5};
+      target.hint.turns = fanuc_turns(target.hint.configuration);
     }
   }
 

@@ -39,6 +39,8 @@ struct ArmHint {
   std::vector<PartHint> parts{};
   /// The joints, from 0, of which the words also state whether they are beyond half a turn, or by how many turns.
   std::vector<std::size_t> counted_turns{};
+  /// Of each joint, where the words state by how many whole turns: 0 from -180 to 180 degrees, 1 from 180 to 540, ...
+  std::vector<std::optional<int>> turns{};
   bool empty() const {
     return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty() && parts.empty();
   }
