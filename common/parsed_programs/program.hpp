@@ -129,6 +129,8 @@ struct Program {
   /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, of
   /// what may stop a motion on its way, and of calls of routines that move.
   std::vector<std::size_t> joints_lost_at{};
+  /// Where statements say what the arm carries from then on.
+  std::vector<TextPlace> payload_set_at{};
   /// In the order of the text; empty: all of it is run in its order.
   std::vector<Stretch> way{};
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "kinematics/chain.hpp"
@@ -113,6 +114,23 @@ std::string names_of(const std::vector<const Effect*>& effects) {
   return names;
 }
 
+/// Of a program whose statements set the payload, which are not followed.
+std::string set_payload_sentence(const Program& program, const Circumstances& given) {
+  constexpr std::size_t kNamed = 3;
+  const std::vector<TextPlace>& set_at = program.payload_set_at;
+  std::string places;
+  for (std::size_t i = 0; i < std::min(set_at.size(), kNamed); ++i)
+    places += (i == 0 ? "" : ", ") + std::to_string(set_at[i].line) +
+              (program.further.empty() ? "" : " of " + program.file_name(set_at[i].file));
+  if (set_at.size() > kNamed) places += " and " + std::to_string(set_at.size() - kNamed) + " more";
+  const std::string taken =
+      given.payload_kg ? number_text(*given.payload_kg) + " kg, of --payload-kg, is" : "an empty hand is";
+  return "the payload, which the program sets in " + std::string(set_at.size() == 1 ? "line " : "lines ") + places +
+         "; that is not followed, and " + taken + " taken for all its targets; " +
+         (set_at.size() == 1 ? "--payload-kg tells it"
+                             : "a program for each payload, with its --payload-kg, has each corrected for its own");
+}
+
 /// What the model's effects depend on and nobody states; the side of approach follows from the motions.
 void check_circumstances(const Program& program, const CommandModel& model, const Circumstances& given,
                          std::vector<std::string>& sentences) {
@@ -120,7 +138,8 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
     const auto by_all = [&](auto member) {
       return std::ranges::all_of(program.targets, [=](const Target& target) { return (target.*member).has_value(); });
     };
-    if (one.needed == &Needs::payload) return given.payload_kg.has_value() || by_all(&Target::payload_kg);
+    if (one.needed == &Needs::payload)
+      return by_all(&Target::payload_kg) || (given.payload_kg.has_value() && program.payload_set_at.size() < 2);
     if (one.needed == &Needs::temperature)
       return given.temperature_celsius.has_value() || by_all(&Target::temperature_celsius);
     return one.needed == &Needs::approach || one.needed == &Needs::time;
@@ -135,9 +154,13 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
     std::string option;
     if (one.needed == &Needs::payload) option = "; --payload-kg tells it";
     if (one.needed == &Needs::temperature) option = "; --temperature-celsius tells it";
-    sentences.push_back(names_of(depending) + (depending.size() == 1 ? " depends on " : " depend on ") +
-                        std::string(one.words) + ", which the program does not state: " + std::string(one.instead) +
-                        " is taken" + option);
+    const std::string depend = names_of(depending) + (depending.size() == 1 ? " depends on " : " depend on ");
+    if (one.needed == &Needs::payload && !program.payload_set_at.empty()) {
+      sentences.push_back(depend + set_payload_sentence(program, given));
+      continue;
+    }
+    sentences.push_back(depend + std::string(one.words) +
+                        ", which the program does not state: " + std::string(one.instead) + " is taken" + option);
   }
 }
 
