@@ -256,6 +256,7 @@ Language krl_language() {
           .signs = {"e6pos", "e6axis", "defdat", "&access", "ptp {", "lin {"},
           .comment = ";",
           .headers = {"def ", "defdat", "deffct", "global def"},
+          .payload_statements = {"$load=", "$load."},
           .of_several_files = true,
           .companions = {{"src", "dat"}, {"dat", "src"}},
           .read = [](const ReaderInput& input) { return KrlReader(input).read(); },

@@ -218,6 +218,7 @@ Language rapid_language() {
           .signs = {"robtarget", "jointtarget", "endmodule"},
           .comment = "!",
           .headers = {"module"},
+          .payload_statements = {"gripload "},
           .of_several_files = true,
           .read = [](const ReaderInput& input) { return RapidReader(input).read(); },
           .write = rapid_text};

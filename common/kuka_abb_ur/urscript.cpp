@@ -289,6 +289,7 @@ Language urscript_language() {
           .file_endings = {"script", "urscript"},
           .signs = {"movej", "movel(", "movep("},
           .comment = "#",
+          .payload_statements = {"set_payload(", "set_payload_mass(", "set_target_payload("},
           .read = [](const ReaderInput& input) { return UrReader(input).read(); },
           .write = urscript_text};
 }

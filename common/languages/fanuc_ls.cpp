@@ -186,6 +186,8 @@ class FanucReader {
       const BracketItem& value = words->second.value;
       target.hint.configuration = text_.text().substr(value.begin, value.size);
       std::erase_if(target.hint.configuration, [](char letter) { return letter == ' ' || letter == '\t'; });
+      target.hint.counted_turns = {0, 3, 5};
+      target.hint.turns = fanuc_turns(target.hint.configuration);
     }
   }
 
@@ -266,6 +268,7 @@ Language fanuc_ls_language() {
           .comment_end = " ;",
           .longest_comment = 31,  // a remark has 32 letters at most
           .headers = {"/mn"},
+          .payload_statements = {"payload["},
           .read = [](const ReaderInput& input) { return FanucReader(input).read(); },
           .write = fanuc_text};
 }

@@ -57,6 +57,7 @@ class FanucMotions {
   void read_motion(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_way(const ProgramText& text, std::size_t begin, std::size_t end);
   void read_jumps(const ProgramText& text, std::size_t begin, std::size_t end);
+  void read_call(const ProgramText& text, std::size_t begin, std::size_t name, std::size_t end);
   void read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional);
 
   std::map<int, std::vector<TargetUse>> uses_;

@@ -1,7 +1,10 @@
 #include "languages/fanuc_ls_positions.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
@@ -65,6 +68,22 @@ std::optional<FanucParts> fanuc_position_parts(const ProgramText& text, std::siz
     found.try_emplace(name, value_at(text, text.skip_spaces(sign + 1), end, at));
   }
   return found;
+}
+
+std::vector<std::optional<int>> fanuc_turns(std::string_view configuration) {
+  constexpr std::array<std::size_t, 3> kJoints{0, 3, 5};
+  std::vector<std::optional<int>> turns(6);
+  for (const std::size_t joint : kJoints) {
+    const std::size_t comma = configuration.find(',');
+    if (comma == std::string_view::npos) return {};
+    configuration.remove_prefix(comma + 1);
+    const std::string_view number = configuration.substr(0, configuration.find(','));
+    int turn = 0;
+    const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), turn);
+    if (fault != std::errc() || end != number.data() + number.size()) return {};
+    turns[joint] = turn;
+  }
+  return turns;
 }
 
 }  // namespace demecal::inline languages

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "parsed_programs/program_text.hpp"
 
@@ -21,5 +23,9 @@ using FanucParts = std::map<std::string, FanucPart>;
 /// The parts of the first group of motion in a position, [begin, end) between its braces; all of them where it names no
 /// group. Nothing where it names other groups only.
 std::optional<FanucParts> fanuc_position_parts(const ProgramText& text, std::size_t begin, std::size_t end);
+
+/// ArmHint::turns of CONFIG's words, without blanks: "NUT,0,0,1" states turns of joints 1, 4 and 6. Empty where three
+/// numbers do not stand there.
+std::vector<std::optional<int>> fanuc_turns(std::string_view configuration);
 
 }  // namespace demecal::inline languages

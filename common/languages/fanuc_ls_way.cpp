@@ -13,6 +13,24 @@
 
 namespace demecal::inline languages {
 
+namespace {
+
+/// Whether an instruction that begins with this word, in small letters, is one of the language; otherwise it is the
+/// name of a macro, which may do anything. `behind`: what follows.
+bool is_fanuc_instruction(std::string_view word, char behind) {
+  constexpr std::string_view kWords =
+      " if select else endif for endfor jmp lbl call run wait pause abort end timer_overflow override message "
+      "error_prog resume_prog maint_prog return_path_dsbl joint_max_speed linear_max_speed uframe_num utool_num "
+      "offset tool_offset voffset skip payload col monitor lock unlock weave arc track touch mp force softfloat "
+      "follow break point_logic vision torq_limit tc_online independent simultaneous settrig accutrig selbound "
+      "stop_tracking search sensor send rcv clr palletizing gp1 gp2 gp3 gp4 gp5 stick diag_rec cancel ";
+  const bool motion = word.size() == 1 && std::string_view("jlcas").find(word) != std::string_view::npos;
+  return motion || word.starts_with('$') || behind == '=' || behind == '[' ||
+         kWords.find(' ' + std::string(word) + ' ') != std::string_view::npos;
+}
+
+}  // namespace
+
 /// What tells the way through the instructions, and the frame and tool that they select.
 void FanucMotions::read_way(const ProgramText& text, std::size_t begin, std::size_t end) {
   const std::string_view code = text.code().substr(0, end);
@@ -35,6 +53,7 @@ void FanucMotions::read_way(const ProgramText& text, std::size_t begin, std::siz
   read_action(text, std::min(text.skip_spaces(action), end), end, conditional);
 }
 
+/// Jumps, and what a motion calls on its way: TB .10sec,CALL WELD.
 /// JMP LBL[n], be it behind a condition, and what else goes to labels: TIMEOUT,LBL[n] and, of motions, Skip,LBL[n].
 /// That is gone to from where the motion ends; where the skip condition stops it on the way, the next instruction
 /// follows.
@@ -48,8 +67,20 @@ void FanucMotions::read_jumps(const ProgramText& text, std::size_t begin, std::s
       way_.jump(may_stop ? at : begin, bracketed_number(text, word_end, end), always);
       if (may_stop) elsewhere_.push_back(at);
     }
+    if (may_stop && text.word_at(at) == "call") read_call(text, at, std::min(text.skip_spaces(word_end), end), end);
     at = word_end - 1;
   }
+}
+
+/// The program's name, or that of a macro, begins at `name`; what is called may select other frames and tools.
+void FanucMotions::read_call(const ProgramText& text, std::size_t begin, std::size_t name, std::size_t end) {
+  const std::string_view called = text.code().substr(name, end - name);
+  const std::size_t size = begin == name ? called.find_first_of("\r\n(,") : called.find_first_of(" \t\r\n(,");
+  std::size_t first = name;
+  way_.call(begin, std::string(text.trimmed(first, size == std::string_view::npos ? end : name + size)));
+  const KnownFrame selected{"selected", Eigen::Isometry3d::Identity(), "computed"};
+  way_.flow().set_tool(begin, selected);
+  way_.flow().set_frame(begin, selected);
 }
 
 void FanucMotions::read_action(const ProgramText& text, std::size_t begin, std::size_t end, bool conditional) {
@@ -58,23 +89,25 @@ void FanucMotions::read_action(const ProgramText& text, std::size_t begin, std::
   const bool tool = word == "utool_num" || word == "$mnutoolnum";
   const bool frame = word == "uframe_num" || word == "$mnuframenum", calls = word == "call";
   std::size_t next = std::min(text.skip_spaces(text.word_end(begin)), end);
-  if (!calls && next < end && text.code()[next] == '[') {
+  const bool macro = !conditional && !is_fanuc_instruction(word, next < end ? text.code()[next] : ';');
+  if (calls || macro) {
+    if (conditional) way_.flow().open(begin, FrameFlow::Block::branch);
+    read_call(text, begin, macro ? begin : next, end);
+    if (conditional) way_.flow().close(begin);
+    return;
+  }
+  if (next < end && text.code()[next] == '[') {
     const std::size_t close = std::min(text.code().find(']', next), end);
     if (!is_first_group(text.code().substr(next + 1, close - next - 1))) return;
     next = std::min(text.skip_spaces(std::min(close + 1, end)), end);
   }
-  if (!calls && (!(tool || frame) || next >= end || text.code()[next] != '=')) return;
+  if (!(tool || frame) || next >= end || text.code()[next] != '=') return;
   std::size_t value = std::min(next + 1, end);
   const std::string_view number = text.trimmed(value, end);
-  const bool told = !calls && !number.empty() && std::all_of(number.begin(), number.end(), is_digit);
+  const bool told = !number.empty() && std::all_of(number.begin(), number.end(), is_digit);
   const KnownFrame selected{"selected", Eigen::Isometry3d::Identity(), told ? std::string(number) : "computed"};
   if (conditional) way_.flow().open(begin, FrameFlow::Block::branch);
-  if (calls) {
-    const std::size_t stop = std::min(text.code().find_first_of(" \t\r\n(,", next), end);
-    way_.call(begin, std::string(text.code().substr(next, stop - next)));
-  }
-  if (tool || calls) way_.flow().set_tool(begin, selected);  // what is called may select others
-  if (frame || calls) way_.flow().set_frame(begin, selected);
+  tool ? way_.flow().set_tool(begin, selected) : way_.flow().set_frame(begin, selected);
   if (conditional) way_.flow().close(begin);
 }
 

@@ -25,6 +25,7 @@ void LabelledWay::motion(std::size_t at) {
 }
 
 void LabelledWay::note_arrivals(const ProgramText& text, Program& program) const {
+  program.joints_lost_at.insert(program.joints_lost_at.end(), lost_.begin(), lost_.end());
   flow_.note_arrivals(program);
   if (jumps_anywhere_) program.joints_lost_at.insert(program.joints_lost_at.end(), labels_.begin(), labels_.end());
   std::set<std::size_t> between = flow_.calls_elsewhere();

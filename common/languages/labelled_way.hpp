@@ -29,6 +29,8 @@ class LabelledWay {
   void jump(std::size_t at, const std::string& name, bool always);
   bool jumps_anywhere() const { return jumps_anywhere_; }
   void call(std::size_t at, const std::string& name);
+  /// From here on it is not known where the arm comes from.
+  void lose(std::size_t at) { lost_.push_back(at); }
   /// The arm moves to a position of the program.
   void motion(std::size_t at);
 
@@ -38,7 +40,7 @@ class LabelledWay {
 
  private:
   FrameFlow flow_;
-  std::vector<std::size_t> labels_;
+  std::vector<std::size_t> labels_, lost_;
   std::map<std::size_t, std::string> calls_;  ///< what each is called by
   std::optional<std::size_t> first_motion_{}, last_motion_{};
   bool jumps_anywhere_ = false;

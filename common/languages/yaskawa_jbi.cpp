@@ -160,6 +160,7 @@ class JobReader {
       target.orientation.assign(cells.begin() + 3, cells.end());
       target.form = OrientationForm::fixed_xyz_angles;
       target.hint.configuration = setting_.configuration;
+      if (!setting_.configuration.empty()) target.hint.counted_turns = {0, 3, 5};
     }
     set_frames(target);
   }

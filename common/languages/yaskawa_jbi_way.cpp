@@ -38,6 +38,27 @@ bool names_a_job(const std::string& argument) {
   return small.starts_with("job:") || small.starts_with("ijob");
 }
 
+/// Of the language's own instructions, as far as none of the above takes them; others are macros, which may do
+/// anything.
+bool is_instruction(std::string_view word) {
+  constexpr std::string_view kWords =
+      " nop end ret call jump pause abort msg cls print setualm timer wait cwait dout din pulse aout aration aratiof "
+      "movj movl movc movs imov eimovl smovl smovc smovj refp speed advinit advstop pstart twait tsync dialog "
+      "clear inc dec set sete gete gets sqrt sin cos atan mulmat invmat setfile getfile setreg getreg getpos cnvrt "
+      "mframe settool add sub mul div and or not xor val asc chr mid len cat getname getdate sfton sftof mshift "
+      "comarcon comarcof arcon arcof arcset arccts arccte wvon wvof vwon vwof svspot svguncl gunchg toolon toolof "
+      "hsen shckset shckrst systart syend endif endswitch endwhile next else elseif elseifexp case default ifthen "
+      "ifthenexp while whileexp for switch ";
+  return kWords.find(' ' + std::string(word) + ' ') != std::string_view::npos;
+}
+
+/// Of words that are not known: whether the way may part or come together there.
+bool may_branch(std::string_view word) {
+  constexpr std::array<std::string_view, 9> kStems{"if",     "else", "end",  "while", "for",
+                                                   "switch", "case", "loop", "until"};
+  return std::ranges::any_of(kStems, [&](std::string_view stem) { return word.starts_with(stem); });
+}
+
 void read_job_jump(const ProgramText& text, std::size_t begin, std::size_t end, LabelledWay& way) {
   const std::string to = argument_of(text, begin, end);
   const bool always = !has_condition(text, begin, end);
@@ -63,15 +84,18 @@ void read_job_way(const ProgramText& text, std::size_t begin, std::size_t end, L
   if (!text.begins_word(begin)) return;
   const std::string word = text.word_at(begin);
   FrameFlow& flow = way.flow();
-  if (word == "ifthen") return flow.open(begin, Block::branch);
+  if (word == "ifthen" || word == "ifthenexp") return flow.open(begin, Block::branch);
   if (word == "switch") return flow.open(begin, Block::selection);
-  if (word == "while" || word == "for") return flow.open(begin, Block::loop);
+  if (word == "while" || word == "whileexp" || word == "for") return flow.open(begin, Block::loop);
   if (word == "else" || word == "default") return flow.alternative(begin, true);
-  if (word == "elseif" || word == "case") return flow.alternative(begin, false);
+  if (word == "elseif" || word == "elseifexp" || word == "case") return flow.alternative(begin, false);
   if (word == "endif" || word == "endswitch" || word == "endwhile" || word == "next") return flow.close(begin);
   if ((word == "end" || word == "ret") && !has_condition(text, begin, end)) return flow.leave_routine(begin);
   if (word == "jump") return read_job_jump(text, begin, end, way);
-  if (word == "call") read_job_call(text, begin, end, way);
+  if (word == "call") return read_job_call(text, begin, end, way);
+  if (is_instruction(word)) return;
+  if (may_branch(word)) return way.lose(begin);
+  way.call(begin, std::string(text.code().substr(begin, text.word_end(begin) - begin)));
 }
 
 bool names_computed_position(const ProgramText& text, std::size_t begin, std::size_t end) {
@@ -80,7 +104,8 @@ bool names_computed_position(const ProgramText& text, std::size_t begin, std::si
 }
 
 bool job_jumps(const ProgramText& text) {
-  constexpr std::array<std::string_view, 5> kWords{"jump", "ifthen", "call", "while", "for"};
+  constexpr std::array<std::string_view, 8> kWords{"jump",  "ifthen",   "ifthenexp", "call",
+                                                   "while", "whileexp", "switch",    "for"};
   bool jumps = false;
   text.for_each_word([&](std::size_t begin, std::size_t /*end*/) {
     jumps = jumps || std::find(kWords.begin(), kWords.end(), text.word_at(begin)) != kWords.end();

@@ -37,6 +37,10 @@ struct ArmHint {
   /// Of shoulder, elbow and wrist, where words do not state all of them; empty: none is stated. The words of
   /// `configuration` are then those of the three, a blank between them.
   std::vector<PartHint> parts{};
+  /// The joints, from 0, of which the words also state whether they are beyond half a turn, or by how many turns.
+  std::vector<std::size_t> counted_turns{};
+  /// Of each joint, where the words state by how many whole turns: 0 from -180 to 180 degrees, 1 from 180 to 540, ...
+  std::vector<std::optional<int>> turns{};
   bool empty() const {
     return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty() && parts.empty();
   }
@@ -125,6 +129,8 @@ struct Program {
   /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, of
   /// what may stop a motion on its way, and of calls of routines that move.
   std::vector<std::size_t> joints_lost_at{};
+  /// Where statements say what the arm carries from then on.
+  std::vector<TextPlace> payload_set_at{};
   /// In the order of the text; empty: all of it is run in its order.
   std::vector<Stretch> way{};
 

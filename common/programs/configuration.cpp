@@ -5,8 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <numbers>
 #include <sstream>
 
+#include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "programs/nominal_joints.hpp"
@@ -87,6 +89,17 @@ std::string_view without_turns(std::string_view words) {
   const bool numbers = !words.empty() && is_digit(words.front());
   for (int i = 1; i < 3 && numbers && end != std::string_view::npos; ++i) end = words.find(',', end + 1);
   return words.substr(0, end);
+}
+
+/// In the whole turns that words state.
+Configurations in_stated_turns(Configurations found, const ArmHint& hint) {
+  for (JointVector& joints : found.joints) {
+    for (Eigen::Index i = 0; i < std::min(joints.size(), std::ssize(hint.turns)); ++i) {
+      const std::optional<int> turn = hint.turns[static_cast<std::size_t>(i)];
+      if (turn) joints[i] = wrap_near(joints[i], 2.0 * std::numbers::pi * *turn);
+    }
+  }
+  return found;
 }
 
 Configurations settled(std::vector<JointVector> joints, JointsFrom from) {
@@ -228,7 +241,7 @@ Configurations ConfigurationFinder::find_any(const Chain& arm, const Target& tar
   if (!named && !states && present_ && target.motion == Motion::line && !states_others(hint)) {
     if (auto end = joints_after_line(arm, *present_, tool)) return {JointsFrom::line, {std::move(*end)}};
   }
-  if (!hint.configuration.empty()) return find_worded(arm, hint.configuration, tool);
+  if (!hint.configuration.empty()) return in_stated_turns(find_worded(arm, hint.configuration, tool), hint);
   if (!hint.parts.empty()) return find_by_parts(arm, hint.parts, tool);
   const JointVector& reference = named ? hint.near : present_ ? *present_ : given ? near_ : middle_;
   std::vector<JointVector> joints = joints_reaching(arm, tool, reference);

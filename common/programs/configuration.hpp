@@ -82,5 +82,8 @@ class ConfigurationFinder {
 std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other);
 /// The same of shoulder (0), elbow (1) or wrist (2) alone.
 std::optional<bool> same_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part);
+/// Whether the part is not on the same side at both, however near to singular they are: on the other, or on none at one
+/// of them. False where the arm has no such sides; those of the wrist also arms have whose wrist's axes do not meet.
+bool leaves_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part);
 
 }  // namespace demecal::inline programs

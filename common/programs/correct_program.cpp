@@ -26,6 +26,7 @@
 #include "programs/configuration.hpp"
 #include "programs/followed_motions.hpp"
 #include "programs/nominal_joints.hpp"
+#include "programs/stated_configuration.hpp"
 #include "programs/target_correction.hpp"
 
 namespace demecal::inline programs {
@@ -80,7 +81,10 @@ class Corrector {
     const CommandModel& model = model_for(target);
     for (const JointVector& joints : visit.found.joints) {
       const CorrectedTarget again = correct_target(target, model, corrected.stop.with_joints(joints));
-      if (agree(corrected, again)) continue;
+      if (agree(corrected, again)) {
+        if (leave_if_reconfigured(target, model.nominal.chain, again, corrected)) return;
+        continue;
+      }
       const PoseError difference = pose_error(corrected.command_tool, again.command_tool);
       const bool known = visit.found.from != JointsFrom::undetermined;
       corrected.remarks = {"line " + std::to_string(line) + (known ? " reaches" : " may reach") +
@@ -158,9 +162,22 @@ class Corrector {
     for (std::size_t i = 1; i < alternatives.size(); ++i) {
       if (agree(corrected, alternatives[i])) continue;
       leave_undetermined(target, model.nominal.chain, alternatives, i, corrected);
-      break;
+      return corrected;
     }
+    if (leave_if_reconfigured(target, model.nominal.chain, corrected, corrected)) return corrected;
+    for (std::size_t i = 1; i < alternatives.size(); ++i)
+      if (leave_if_reconfigured(target, model.nominal.chain, alternatives[i], corrected)) break;
     return corrected;
+  }
+
+  /// Leaves a target that is, corrected in this way, not in the configuration that it states.
+  static bool leave_if_reconfigured(const Target& target, const Chain& arm, const CorrectedTarget& way,
+                                    CorrectedTarget& corrected) {
+    const std::string why = leaving_stated(target, arm, way.nominal, way.command);
+    if (why.empty()) return false;
+    corrected.remarks = {why};
+    corrected.outcome = CorrectionOutcome::uncorrected;
+    return true;
   }
 
   /// Whether the program's numbers come out the same.

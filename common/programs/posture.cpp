@@ -49,6 +49,15 @@ Eigen::Vector3d wrist_of(const std::array<JointAxis, kSix>& axes) {
   return fifth.point - along * fifth.direction;
 }
 
+double wrist_sine(const std::array<JointAxis, kSix>& axes) {
+  return axes[3].direction.cross(axes[5].direction).dot(axes[4].direction);
+}
+
+bool has_six_axes(const Chain& arm) {
+  return arm.joints.size() == kSix &&
+         std::ranges::all_of(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
+}
+
 /// The sines of shoulder, elbow and wrist; nothing where the arm has none.
 std::optional<std::array<double, 3>> sides_of(const Chain& arm, const JointVector& joints) {
   constexpr double kMeet_m = 1e-3, kParallel = 1e-3, kCross = 0.5;
@@ -63,17 +72,14 @@ std::optional<std::array<double, 3>> sides_of(const Chain& arm, const JointVecto
   const Eigen::Vector3d upper = in_plane(axes[2].point - axes[1].point), fore = in_plane(wrist - axes[2].point);
   const double lengths = std::max(upper.norm() * fore.norm(), 1e-12), reach = upper.norm() + fore.norm();
   return std::array<double, 3>{(wrist - axes[0].point).dot(forward_side.normalized()) / std::max(reach, 1e-12),
-                               axes[1].direction.dot(upper.cross(fore)) / lengths,
-                               axes[3].direction.cross(axes[5].direction).dot(axes[4].direction)};
+                               axes[1].direction.dot(upper.cross(fore)) / lengths, wrist_sine(axes)};
 }
 
 }  // namespace
 
 std::optional<bool> same_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part) {
   constexpr double kTold = 0.02;
-  const bool six = arm.joints.size() == kSix &&
-                   std::ranges::all_of(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
-  if (!six) return std::nullopt;
+  if (!has_six_axes(arm)) return std::nullopt;
   const auto sides = sides_of(arm, one), others = sides_of(arm, other);
   if (!sides || !others) return std::nullopt;
   const double side = (*sides)[part], other_side = (*others)[part];
@@ -89,6 +95,16 @@ std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const
     same = same && *on_one_side;
   }
   return same;
+}
+
+bool leaves_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part) {
+  constexpr double kZero = 1e-7;
+  if (!has_six_axes(arm)) return false;
+  const auto sides = sides_of(arm, one), others = sides_of(arm, other);
+  if ((!sides || !others) && part != 2) return false;
+  const double side = sides ? (*sides)[part] : wrist_sine(axes_at(arm, one));
+  const double other_side = others ? (*others)[part] : wrist_sine(axes_at(arm, other));
+  return side * other_side <= 0.0 && std::abs(side - other_side) > kZero;
 }
 
 }  // namespace demecal::inline programs

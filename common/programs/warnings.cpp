@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "kinematics/chain.hpp"
@@ -85,13 +86,6 @@ void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, s
   }
 }
 
-void check_configuration(const Target& target, const CorrectedTarget& corrected, std::vector<std::string>& sentences) {
-  if (!target.is_pose() || target.hint.empty()) return;
-  if (contradictions(target.hint, corrected.command) > 0) {
-    sentences.emplace_back("the correction takes a joint out of the configuration that is stated");
-  }
-}
-
 /// What should be known of a tool that the user names for this program.
 void check_given_tool(const Program& program, const Eigen::Vector3d& tool_m, std::vector<std::string>& sentences) {
   constexpr double kAnother = 1e-4;  ///< m
@@ -120,6 +114,23 @@ std::string names_of(const std::vector<const Effect*>& effects) {
   return names;
 }
 
+/// Of a program whose statements set the payload, which are not followed.
+std::string set_payload_sentence(const Program& program, const Circumstances& given) {
+  constexpr std::size_t kNamed = 3;
+  const std::vector<TextPlace>& set_at = program.payload_set_at;
+  std::string places;
+  for (std::size_t i = 0; i < std::min(set_at.size(), kNamed); ++i)
+    places += (i == 0 ? "" : ", ") + std::to_string(set_at[i].line) +
+              (program.further.empty() ? "" : " of " + program.file_name(set_at[i].file));
+  if (set_at.size() > kNamed) places += " and " + std::to_string(set_at.size() - kNamed) + " more";
+  const std::string taken =
+      given.payload_kg ? number_text(*given.payload_kg) + " kg, of --payload-kg, is" : "an empty hand is";
+  return "the payload, which the program sets in " + std::string(set_at.size() == 1 ? "line " : "lines ") + places +
+         "; that is not followed, and " + taken + " taken for all its targets; " +
+         (set_at.size() == 1 ? "--payload-kg tells it"
+                             : "a program for each payload, with its --payload-kg, has each corrected for its own");
+}
+
 /// What the model's effects depend on and nobody states; the side of approach follows from the motions.
 void check_circumstances(const Program& program, const CommandModel& model, const Circumstances& given,
                          std::vector<std::string>& sentences) {
@@ -127,7 +138,8 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
     const auto by_all = [&](auto member) {
       return std::ranges::all_of(program.targets, [=](const Target& target) { return (target.*member).has_value(); });
     };
-    if (one.needed == &Needs::payload) return given.payload_kg.has_value() || by_all(&Target::payload_kg);
+    if (one.needed == &Needs::payload)
+      return by_all(&Target::payload_kg) || (given.payload_kg.has_value() && program.payload_set_at.size() < 2);
     if (one.needed == &Needs::temperature)
       return given.temperature_celsius.has_value() || by_all(&Target::temperature_celsius);
     return one.needed == &Needs::approach || one.needed == &Needs::time;
@@ -142,15 +154,19 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
     std::string option;
     if (one.needed == &Needs::payload) option = "; --payload-kg tells it";
     if (one.needed == &Needs::temperature) option = "; --temperature-celsius tells it";
-    sentences.push_back(names_of(depending) + (depending.size() == 1 ? " depends on " : " depend on ") +
-                        std::string(one.words) + ", which the program does not state: " + std::string(one.instead) +
-                        " is taken" + option);
+    const std::string depend = names_of(depending) + (depending.size() == 1 ? " depends on " : " depend on ");
+    if (one.needed == &Needs::payload && !program.payload_set_at.empty()) {
+      sentences.push_back(depend + set_payload_sentence(program, given));
+      continue;
+    }
+    sentences.push_back(depend + std::string(one.words) +
+                        ", which the program does not state: " + std::string(one.instead) + " is taken" + option);
   }
 }
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected,
+std::vector<std::string> warnings_of(const Target& /*target*/, const CorrectedTarget& corrected,
                                      const CommandModel& model) {
   if (corrected.outcome == CorrectionOutcome::no_joints) {
     return {"the nominal robot does not reach the pose; it is left as it is"};
@@ -163,7 +179,6 @@ std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget
     check_range(joint, link, corrected, model, sentences);
   }
   check_bounds(corrected, model, sentences);
-  check_configuration(target, corrected, sentences);
   if (corrected.outcome == CorrectionOutcome::nearest) {
     sentences.push_back("the model has no exact inverse here; " + fixed_text(millimetres(corrected.residual_m), 4) +
                         " mm of position error and " + fixed_text(degrees(corrected.residual_rad), 4) +

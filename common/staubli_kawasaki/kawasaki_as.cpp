@@ -248,6 +248,7 @@ Language kawasaki_as_language() {
           .signs = {".trans", ".joints"},
           .other_endings = {"pg"},
           .comment = ".*",
+          .payload_statements = {"weight "},
           .of_several_files = true,
           .read = [](const ReaderInput& input) { return AsReader(input).read(); },
           .write = as_text};

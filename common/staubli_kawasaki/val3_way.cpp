@@ -29,10 +29,16 @@ void Val3Way::read_word(const ProgramText& code, std::size_t begin) {
   if (word == "endif" || word == "endswitch" || word == "endfor" || word == "endwhile" || word == "until")
     return flow_.close(begin);
   if (word == "return") return flow_.leave_routine(begin);
+  if (word == "stopmove" || word == "resetmotion") stops_.push_back(begin);
   if (word != "call") return;
   const std::size_t name = code.skip_spaces(code.word_end(begin));
   const std::size_t stop = std::min(code.code().find_first_of("( \t\r\n", name), code.code().size());
   flow_.call(begin, lower_case(code.code().substr(name, stop - name)), true);
+}
+
+void Val3Way::note_arrivals(Program& program) const {
+  program.joints_lost_at.insert(program.joints_lost_at.end(), stops_.begin(), stops_.end());
+  flow_.note_arrivals(program);
 }
 
 }  // namespace demecal::inline staubli_kawasaki

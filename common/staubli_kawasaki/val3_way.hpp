@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/program.hpp"
@@ -19,12 +20,13 @@ class Val3Way {
   void finish() { flow_.finish(); }
   /// Tells `program`, whose targets are known, where the motion before in the text is not, or not always, the one that
   /// the arm comes from.
-  void note_arrivals(Program& program) const { flow_.note_arrivals(program); }
+  void note_arrivals(Program& program) const;
 
  private:
   void read_word(const ProgramText& code, std::size_t begin);
 
   FrameFlow flow_{"", ""};
+  std::vector<std::size_t> stops_{};  ///< where motions may be stopped on their way, or are given up
 };
 
 }  // namespace demecal::inline staubli_kawasaki

@@ -110,8 +110,10 @@ TEST(ArrivingPoints, OfFanucAreKnownWhereTheWayIsStraight) {
 }
 
 TEST(ArrivingPoints, OfFanucAreBelievedThroughCallsWhichAreNamedOnce) {
-  for (const char* between : {" 2:CALL PICK ;\n", " 2:IF DI[1]=ON,CALL PICK(1,2) ;\n 3:CALL PICK ;\n",
-                              " 2:SELECT R[1]=1,CALL PICK ;\n 3:       =2,CALL PICK ;\n"}) {
+  for (const char* between :
+       {" 2:CALL PICK ;\n", " 2:PICK ;\n", " 2:  PICK(1,R[2]) ;\n 3:PICK ;\n",
+        " 2:J P[1] 9% FINE TB .10sec,CALL PICK ;\n", " 2:IF DI[1]=ON,CALL PICK(1,2) ;\n 3:CALL PICK ;\n",
+        " 2:SELECT R[1]=1,CALL PICK ;\n 3:       =2,CALL PICK ;\n"}) {
     const Arrival found = fanuc(between);
     EXPECT_TRUE(found.known) << between;
     EXPECT_THAT(found.said, AllOf(HasSubstr("PICK is not in the files given"), HasSubstr("the arm"))) << between;
@@ -120,19 +122,59 @@ TEST(ArrivingPoints, OfFanucAreBelievedThroughCallsWhichAreNamedOnce) {
   EXPECT_THAT(fanuc("", " 9:CALL PICK ;\n").said, IsEmpty()) << "no motion comes behind it";
 }
 
+TEST(ArrivingPoints, OfFanucAreKnownThroughInstructionsThatAreNoMacros) {
+  for (const std::string instruction : {"DO[1]=ON",
+                                        "RO[2:grip]=PULSE,0.5sec",
+                                        "R[1]=R[1]+1",
+                                        "PR[1]=LPOS",
+                                        "$MCR.$GENOVERRIDE=50",
+                                        "OVERRIDE=50%",
+                                        "TIMER[1]=START",
+                                        "WAIT   .50(sec)",
+                                        "WAIT DI[1]=ON",
+                                        "PAYLOAD[3]",
+                                        "COL DETECT ON",
+                                        "MESSAGE[PICK]",
+                                        "UALM[1]",
+                                        "Arc Start[1]",
+                                        "Weave Sine[1]",
+                                        "Weave End",
+                                        "RUN TASK",
+                                        "LOCK PREG",
+                                        "MONITOR PICK",
+                                        "PAUSE",
+                                        "F[1]=(ON)",
+                                        "JOINT_MAX_SPEED[1]=20",
+                                        "--eg:PICK",
+                                        "SR[1]='PICK'",
+                                        "IF (R[1]=1),R[2]=(3)",
+                                        "VISION RUN_FIND 'PICK'",
+                                        ""}) {
+    const Arrival found = fanuc(" 2:  " + instruction + " ;\n");
+    EXPECT_TRUE(found.known) << instruction;
+    EXPECT_THAT(found.said, IsEmpty()) << instruction;
+  }
+}
+
 TEST(ArrivingPoints, OfYaskawaAreNotKnownBehindBranchesAndJumps) {
   const std::string move = "MOVJ C3 VJ=9\n";
   for (const std::string& between :
        {"JUMP *A IF IN#(1)=ON\n" + move + "*A\n", "IFTHEN IN#(1)=ON\n" + move + "ENDIF\n",
         "IFTHEN I000=1\n" + move + "ELSEIF I000=2\n" + move + "ELSE\nENDIF\n",
-        "SWITCH I000\nCASE 1\n" + move + "DEFAULT\nENDSWITCH\n", "JUMP S000\n" + move + "*A\n"})
+        "SWITCH I000\nCASE 1\n" + move + "DEFAULT\nENDSWITCH\n", "JUMP S000\n" + move + "*A\n",
+        "IFTHENEXP B000=1\n" + move + "ENDIF\n", "IFTHENEXP B000=1\nELSEIFEXP B000=2\n" + move + "ELSE\nENDIF\n",
+        "WHILEEXP IN#(1)=ON\n" + move + "ENDWHILE\n", "FOR I000=1 TO 3\n" + move + "NEXT I000\n",
+        std::string("IFANY B000=1\n")})
     EXPECT_FALSE(yaskawa(between).known) << between;
   EXPECT_FALSE(yaskawa("*A\n", move + "JUMP *A\n").known) << "it comes back from the last";
 }
 
 TEST(ArrivingPoints, OfYaskawaAreKnownWhereTheWayIsStraight) {
-  for (const char* between : {"", "IFTHEN IN#(1)=ON\nDOUT OT#(1) ON\nENDIF\n", "*B\n", "'JUMP *B\n*B\n",
-                              "JUMP *Z IF IN#(1)=ON\n", "JUMP JOB:ERROR IF IN#(1)=ON\n", "RET IF IN#(1)=ON\n"}) {
+  for (const char* between :
+       {"", "IFTHEN IN#(1)=ON\nDOUT OT#(1) ON\nENDIF\n", "*B\n", "'JUMP *B\n*B\n", "JUMP *Z IF IN#(1)=ON\n",
+        "JUMP JOB:ERROR IF IN#(1)=ON\n", "RET IF IN#(1)=ON\n", "SET B000 1\n", "TIMER T=1.00\n",
+        "WAIT IN#(1)=ON T=2.0\n", "PULSE OT#(1) T=0.5\n", "ADD I000 1\n", "ARCON ASF#(1)\n", "MSG \"PICK\"\n",
+        "PAUSE IF IN#(1)=ON\n", "IFTHENEXP B000=1\nINC I000\nELSEIFEXP B000=2\nELSE\nENDIF\n"}) {
     const Arrival found = yaskawa(between, "*Z\n");
     EXPECT_TRUE(found.known) << between;
     EXPECT_THAT(found.said, IsEmpty()) << between;
@@ -140,7 +182,8 @@ TEST(ArrivingPoints, OfYaskawaAreKnownWhereTheWayIsStraight) {
 }
 
 TEST(ArrivingPoints, OfYaskawaAreBelievedThroughCallsWhichAreNamedOnce) {
-  for (const char* between : {"CALL JOB:PICK\n", "CALL JOB:PICK IF IN#(1)=ON\nCALL JOB:PICK ARGF1\n"}) {
+  for (const char* between :
+       {"CALL JOB:PICK\n", "CALL JOB:PICK IF IN#(1)=ON\nCALL JOB:PICK ARGF1\n", "PICK\n", "PICK ARGF1 ARGF2\n"}) {
     const Arrival found = yaskawa(between);
     EXPECT_TRUE(found.known) << between;
     EXPECT_THAT(found.said, AllOf(HasSubstr("PICK is not in the files given"), HasSubstr("the arm"))) << between;
@@ -154,6 +197,7 @@ TEST(ArrivingPoints, OfVal3AreNotKnownBehindBranchesAndCallsOfProgramsThatMove) 
   for (const std::string& between :
        {" if bX\n" + move + " endIf\n", " if bX\n" + move + " elseIf bY\n else\n" + move + " endIf\n",
         " switch n\n case 1\n" + move + " break\n default\n break\n endSwitch\n", std::string(" call goes()\n"),
+        std::string(" stopMove()\n resetMotion()\n restartMove()\n"), std::string(" resetMotion(a)\n"),
         std::string(" if bX\n call goes()\n endIf\n")})
     EXPECT_FALSE(val3(between).known) << between;
 }

@@ -1,0 +1,75 @@
+// Statements that set the payload: where a model depends on it, they are named instead of missed.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "corrected_arm.hpp"
+#include "languages/named_languages.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+CommandModel compliant_model() {
+  RandomStream stream{7581};
+  const Robot nominal = elbow_arm(stream);
+  CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
+  identified.corrections.assign(nominal.chain.joints.size(), {});
+  identified.effects = {
+      {.kind = "compliance", .joint = 1, .settings = {}, .form = "payload", .formula = {}, .values = {1e-6}}};
+  return unbounded_model(nominal, identified);
+}
+
+/// What is said of the whole program.
+std::string said_of_all(WrittenIn language, const std::string& text, const Circumstances& circumstances) {
+  const CommandModel model = compliant_model();
+  std::string said;
+  for (const Remark& warning :
+       correct_program(text, read_program(language, text, "p", model.nominal.chain), model, circumstances).warnings)
+    if (warning.place.line == 0) said += warning.sentence + '\n';
+  return said;
+}
+
+/// Programs with such statements in lines 3 and 5.
+const std::map<WrittenIn, std::string> kSetting{
+    {WrittenIn::fanuc_ls,
+     "/PROG  T\n/MN\n   1:  PAYLOAD[3] ;\n   2:!PAYLOAD[1] ;\n   3:  PAYLOAD[R[1]] ;\n/POS\n/END\n"},
+    {WrittenIn::krl, "DEF m()\n;$LOAD=a\n$LOAD = LOAD_DATA[1]\n$LOADS=1\n$LOAD.M=6\nEND\n"},
+    {WrittenIn::urscript,
+     "def f():\n# set_payload(1)\n set_payload(6.0, [0,0,0.1])\n x=1\n set_payload_mass (2)\nend\n"},
+    {WrittenIn::rapid, "MODULE M\nPROC main()\nGripLoad load0;\n!GripLoad p;\nGRIPLOAD p;\nENDPROC\nENDMODULE\n"},
+    {WrittenIn::kawasaki_as, ".PROGRAM m()\n; WEIGHT 6\nWEIGHT 0\nWEIGHT = 5\nWEIGHT 6,0,0,100\n.END\n"}};
+
+TEST(PayloadStatements, AreFoundWhereALineBeginsWithThem) {
+  for (const auto& [language, text] : kSetting) {
+    std::vector<std::size_t> lines;
+    for (const TextPlace& place : read_program(language, text, "p", wrist_arm()).payload_set_at)
+      lines.push_back(place.line);
+    EXPECT_THAT(lines, ElementsAre(3, 5)) << text;
+  }
+}
+
+TEST(PayloadStatements, AreNamedWhereTheModelDependsOnThem) {
+  const std::string text = "def f():\n set_payload(0)\n movej([0.1,-0.7,0.5,0.3,0.9,0.2])\n set_payload(6.0)\nend\n";
+  EXPECT_THAT(said_of_all(WrittenIn::urscript, text, {.temperature_celsius = 20.0}),
+              AllOf(HasSubstr("the program sets in lines 2, 4;"), HasSubstr("an empty hand is taken"),
+                    Not(HasSubstr("does not state"))));
+  EXPECT_THAT(said_of_all(WrittenIn::urscript, text, {.payload_kg = 6.0, .temperature_celsius = 20.0}),
+              HasSubstr("6 kg, of --payload-kg, is taken"));
+}
+
+TEST(PayloadStatements, ThatStandAloneAreWhatTheUserTells) {
+  const std::string text = "def f():\n set_payload(6.0)\n movej([0.1,-0.7,0.5,0.3,0.9,0.2])\nend\n";
+  EXPECT_THAT(said_of_all(WrittenIn::urscript, text, {.payload_kg = 6.0, .temperature_celsius = 20.0}),
+              Not(HasSubstr("payload")));
+  EXPECT_THAT(said_of_all(WrittenIn::urscript, text, {.temperature_celsius = 20.0}),
+              AllOf(HasSubstr("the program sets in line 2;"), HasSubstr("--payload-kg tells it")));
+}
+
+}  // namespace
+}  // namespace demecal
