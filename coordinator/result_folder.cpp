@@ -87,6 +87,13 @@ std::vector<HistoryRow> history_rows(const std::vector<Progress>& history) {
 
 }  // namespace
 
+bool holds_no_run(const std::string& folder) {
+  const std::filesystem::path path(folder);
+  const auto holds = [&](const char* name) { return std::filesystem::exists(path / name); };
+  return !std::filesystem::is_empty(path) &&
+         std::ranges::none_of(std::array{"run.journal", "events.jsonl", "model.yaml", "report.json"}, holds);
+}
+
 std::vector<std::string> result_files(Method method) {
   std::vector<std::string> files{"model.yaml", "model-best.yaml", "report.json", "report.html", "pose-errors.csv"};
   if (has_islands(method)) files.emplace_back("history.csv");

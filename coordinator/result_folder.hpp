@@ -14,6 +14,9 @@
 
 namespace demecal {
 
+/// Whether a folder has files, but none that a run begins with or leaves.
+bool holds_no_run(const std::string& folder);
+
 /// The list `.demecal-files` of a folder, in the lines of sha256sum. Every change is written at once: a program that
 /// dies leaves no file that the next one does not know.
 class WrittenFiles {

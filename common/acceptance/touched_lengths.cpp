@@ -73,6 +73,19 @@ std::vector<CertifiedPose> certified_lengths(const DataSet& data, const std::vec
   return poses;
 }
 
+/// Those that the model was not fitted to: calibration poses of its own data that touch both ends gave it these.
+std::vector<TouchedLength> unfitted(std::vector<TouchedLength> lengths, const DataSet& data) {
+  const auto is_touched = [&](const std::string& contact) {
+    return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
+      return pose.set == PoseSet::calibration && pose.contact == contact;
+    });
+  };
+  std::erase_if(lengths, [&](const TouchedLength& length) {
+    return is_touched(length.known->first) && is_touched(length.known->second);
+  });
+  return lengths;
+}
+
 }  // namespace
 
 bool touch_alone(const DataSet& data, std::span<const std::size_t> rows) {
@@ -114,8 +127,21 @@ void judge_lengths(const CalibratedModel& model, const DataSet& data, std::span<
   const CorrectedRobot described = model.declared.tool
                                        ? refitted(data, {.registration = false, .tool = true}, nominal_robot(data))
                                        : nominal_robot(data);
-  const std::vector<TouchedLength> before = touched_lengths(data, rows, described),
-                                   after = touched_lengths(data, rows, model.robot);
+  std::vector<TouchedLength> before = touched_lengths(data, rows, described),
+                             after = touched_lengths(data, rows, model.robot);
+  const bool any_touched = !after.empty();
+  if (is_calibrated_with(model, data)) {
+    before = unfitted(std::move(before), data);
+    after = unfitted(std::move(after), data);
+  }
+  if (any_touched && after.empty()) {
+    throw InputError(
+        {data.file, 0}, "contact",
+        "the " + certificate.judged_set +
+            " poses touch no known length but those that the model was fitted to: that it has them as long "
+            "as they are stated does not show that they are; touch the ends of another length, of points "
+            "that no calibration pose touches");
+  }
   if (after.empty()) {
     throw InputError({data.file, 0}, "contact",
                      "the " + certificate.judged_set +

@@ -21,6 +21,7 @@
 #include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "prediction/only_places.hpp"
 #include "random/distributions.hpp"
 #include "residuals/structure.hpp"
 
@@ -63,7 +64,7 @@ CappedMean capped_mean(const std::vector<double>& values, double most) {
 class PredictionScores {
  public:
   PredictionScores(const DataSet& data, const FittedPosterior& fitted, const CorrectedRobot& robot)
-      : data_(data), arm_scatter_m_(fitted.arm_scatter_m) {
+      : data_(data), contacts_(contact_groups(data)), arm_scatter_m_(fitted.arm_scatter_m) {
     scored_ = scored(poses_of(data, PoseSet::validation), fitted, robot);
     interval_.fitted = scored_.empty();
     const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
@@ -100,6 +101,13 @@ class PredictionScores {
 
   int fewest_axes() const { return std::ranges::min(scored_, {}, &ScoredPose::axes).axes; }
 
+  /// How much of a pose's squared error is left where its contact's place is taken from the poses themselves; of what
+  /// was measured all of it.
+  double share_left(const MeasuredPose& pose) const {
+    if (pose.contact.empty()) return 1.0;
+    return share_beyond_place(data_.contacts.form_of(pose.contact), contacts_.at(group_of(pose)).size());
+  }
+
   std::vector<ScoredPose> scored(const std::vector<std::size_t>& poses, const FittedPosterior& fitted,
                                  const CorrectedRobot& robot) {
     const std::vector<double> errors_m = tool_errors_m(robot, data_, poses);
@@ -110,10 +118,11 @@ class PredictionScores {
     std::vector<ScoredPose> all;
     for (std::size_t i = 0; i < poses.size(); ++i) {
       const MeasuredPose& pose = data_.poses[poses[i]];
-      if (!std::isfinite(errors_m[i])) continue;
+      const double share = share_left(pose);
+      if (!std::isfinite(errors_m[i]) || share == 0.0) continue;
       const std::string name = pose.pose_id.empty() ? "line " + std::to_string(pose.line) : pose.pose_id;
       const std::size_t group = groups_.try_emplace(name, groups_.size()).first->second;
-      all.push_back({poses[i], group, point_axes(pose), errors_m[i] * errors_m[i], posterior_m2[i]});
+      all.push_back({poses[i], group, point_axes(pose), errors_m[i] * errors_m[i] / share, posterior_m2[i]});
     }
     return all;
   }
@@ -236,6 +245,7 @@ class PredictionScores {
   }
 
   const DataSet& data_;
+  const std::map<ContactGroup, std::vector<std::size_t>> contacts_;
   const double arm_scatter_m_;
   PredictionInterval interval_;
   std::map<std::string, std::size_t> groups_;

@@ -194,6 +194,9 @@ ExitCode run_calibrate(CalibrateRequest request) {
   }
   if (!request.resume.empty() && !std::filesystem::is_directory(request.resume))
     throw ArgumentError("--resume: there is no folder " + request.resume + "; a new run's is named by --out");
+  if (!request.resume.empty() && holds_no_run(request.resume))
+    throw ArgumentError("--resume: " + request.resume +
+                        " holds files, but no run that was begun there; a new run's folder is named by --out");
   if (request.out.empty()) request.out = request.resume;
   if (request.out.empty()) throw ArgumentError("--out is missing: name the folder for the results");
   if (!request.resume.empty() && !same_folder(request.out, request.resume))

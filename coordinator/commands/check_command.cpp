@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "acceptance/certificate.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
@@ -95,13 +96,26 @@ std::optional<ChangeReport> change_in_place_of(const Finding& other, const Calib
   }
 }
 
+/// Without it every error that is larger than noise is a change.
+void require_posterior(const CalibratedModel& model, const std::string& file) {
+  if (model.posterior) return;
+  throw InputError(
+      {file, 0}, "posterior",
+      "is missing: nothing says how sure the model's numbers are, so that what they were wrong by all along "
+      "would be called a change of the robot; calibrate again, or use --force");
+}
+
 ExitCode run_check(const CheckRequest& request) {
   const CalibratedModel model = load_model(request.model_file);
   require_one_robot(model, request.model_file, "check");
+  if (!request.force) require_posterior(model, request.model_file);
   const CheckedData checked = load_checked_as_one_set(request.data_file);
   const DataSet& data = checked.data;
   require_positions(data, "check");
   require_same_nominal_arm(model, data);
+  if (is_calibrated_with(model, data))
+    fmt::print(stderr, "{}: the model was made from these very poses: they tell nothing of the robot as it is now\n",
+               request.data_file);
   const Finding* other = other_robot_alone(checked.check);
   std::optional<ChangeReport> instead = other == nullptr ? std::nullopt : change_in_place_of(*other, model, checked);
   DataCheck shown = checked.check;

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 
+#include "errors/input_error.hpp"
 #include "kinematics/random_arm.hpp"
 
 namespace demecal {
@@ -63,6 +64,36 @@ TEST(TouchedLengths, EveryPoseIsAnEndOfOneAtMost) {
     for (const std::size_t row : used) EXPECT_EQ(used.count(row), 1U);
     EXPECT_GE(used.size(), 2 * static_cast<std::size_t>(std::min(counts[1], std::max(counts[0], counts[2]))));
   }
+}
+
+/// Of the model's own data, lengths between contacts that calibration poses touch are no evidence of themselves.
+TEST(TouchedLengths, ThatTheModelWasFittedToAreNotJudged) {
+  DataSet data = touching(74, {4, 4, 4}, 3e-4);
+  data.sha256 = "of these";
+  CalibratedModel model;
+  model.nominal = data.robot;
+  model.robot = nominal_robot(data);
+  std::vector<std::size_t> rows(data.poses.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
+  const std::size_t own = data.poses.size();
+  const auto judged = [&] {
+    Certificate certificate;
+    judge_lengths(model, data, rows, {.tolerance_m = 1e-3}, certificate);
+    return certificate.poses.size();
+  };
+  const std::size_t all = judged();
+  for (const char* contact : {"A", "B"}) {
+    data.poses.push_back(data.poses[contact[0] == 'A' ? 0 : 4]);
+    data.poses.back().set = PoseSet::calibration;
+  }
+  ASSERT_EQ(data.poses[own + 1].contact, "B");
+  EXPECT_EQ(judged(), all) << "poses of another model touched A and B";
+  model.data_sha256 = "of these";
+  EXPECT_LT(judged(), all);
+  EXPECT_GT(judged(), 0U);
+  data.poses.push_back(data.poses[8]);
+  data.poses.back().set = PoseSet::calibration;
+  EXPECT_THROW(judged(), InputError);
 }
 
 TEST(TouchedLengths, AreJudgedWhereNothingWasMeasuredAtAnyPose) {

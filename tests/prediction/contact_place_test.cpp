@@ -171,6 +171,17 @@ TEST(LengthErrors, AreBetweenTheMeansOfBothContactsInEverySetThatHasThem) {
   EXPECT_NEAR(errors[0].error_m, apart.norm() - 0.05, 1e-12);
 }
 
+TEST(ShareBeyondPlace, IsWhatTouchesMeasureBeyondWhereTheContactIs) {
+  const ContactForm point{ContactKind::point, {}}, plane{ContactKind::plane, {}}, ball{ContactKind::sphere, {}},
+      known_ball{ContactKind::sphere, 0.02};
+  EXPECT_EQ(share_beyond_place(point, 1), 0.0);
+  EXPECT_DOUBLE_EQ(share_beyond_place(point, 4), 0.75);
+  EXPECT_EQ(share_beyond_place(plane, 3), 0.0);
+  EXPECT_DOUBLE_EQ(share_beyond_place(plane, 12), 0.75);
+  EXPECT_EQ(share_beyond_place(ball, 4), 0.0);
+  EXPECT_DOUBLE_EQ(share_beyond_place(known_ball, 4), 0.25);
+}
+
 TEST(OnlyPlaced, PosesCountInNoFigure) {
   RandomStream stream{9106};
   DataSet data;

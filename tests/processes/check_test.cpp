@@ -135,5 +135,24 @@ TEST(Check, NamesAZeroThatIsSoFarOffThatTheDataLookLikeThoseOfAnotherRobot) {
   EXPECT_TRUE(says(other.err, "not of this robot")) << other.err;
 }
 
+TEST(Check, SaysWhatItCannotTellAChangeFrom) {
+  const SmallJob job;
+  ASSERT_EQ(run("demecal", {"diagnose", job.data(), "--declare", "registration,joint_corrections", "--candidates",
+                            "joint_offset", "--out", job.path("out")})
+                .code,
+            0);
+  const Ended own = run("demecal", {"check", job.path("out/model.yaml"), job.data()});
+  EXPECT_EQ(own.code, 0) << own.out;
+  EXPECT_TRUE(says(own.err, "made from these very poses")) << own.err;
+  std::string model = job.text("out/model.yaml");
+  const std::size_t begin = model.find("# Covariance of these numbers"),
+                    end = model.find("\nprediction_interval:", begin);
+  ASSERT_NE(end, std::string::npos);
+  std::ofstream(job.path("unsure.yaml")) << model.erase(begin, end + 1 - begin);
+  const Ended unsure = run("demecal", {"check", job.path("unsure.yaml"), job.data()});
+  EXPECT_EQ(unsure.code, 11) << unsure.out;
+  EXPECT_TRUE(says(unsure.err, "nothing says how sure the model's numbers are")) << unsure.err;
+}
+
 }  // namespace
 }  // namespace demecal

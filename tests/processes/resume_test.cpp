@@ -4,6 +4,7 @@
 #include <sys/resource.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -98,6 +99,16 @@ TEST(Resume, RefusesAnotherSeedOrJobAndSaysSo) {
   EXPECT_EQ(data.code, 11);
   EXPECT_THAT(data.err, HasSubstr("the data set or the robot have changed"));
   EXPECT_EQ(run("demecal", {"calibrate", job.job(), "--out", job.path("a"), "--resume", job.path("b")}).code, 10);
+}
+
+TEST(Resume, BeginsNothingAmongFilesOfOthers) {
+  const SmallJob job;
+  std::filesystem::create_directory(job.path("notes"));
+  std::ofstream(job.path("notes/notes.txt")) << "mine\n";
+  const Ended ended = run("demecal", resume(job, "notes"));
+  EXPECT_EQ(ended.code, 10) << ended.out;
+  EXPECT_THAT(ended.err, HasSubstr("holds files, but no run that was begun there"));
+  EXPECT_TRUE(job.text("notes/model.yaml").empty());
 }
 
 TEST(Resume, GoesOnAfterTheDiskWasFull) {

@@ -188,6 +188,23 @@ TEST(ContactNotes, SayWhereEverythingWasTouchedAtOnePlace) {
   EXPECT_THAT(notes(apart), AllOf(Not(HasSubstr("touch one contact")), Not(HasSubstr("judged at one place"))));
 }
 
+TEST(ContactNotes, CallNoLengthUnfittedThatOtherPosesTouchAgain) {
+  const JointVector here = JointVector::Constant(6, 0.3), there = JointVector::Constant(6, -0.9);
+  const DataSet data = touching({{"a", here}, {"b", there}});
+  const auto entry = [](const std::string& one, const std::string& other, const std::string& set) {
+    return LengthErrorEntry{.between = {one, other}, .set = set, .known_mm = 50.0, .sigma_mm = 0.05, .error_mm = 0.1};
+  };
+  const auto says = [&](const std::vector<LengthErrorEntry>& lengths) {
+    const auto notes = contact_notes(data, nominal_robot(data), lengths, {"calibration"});
+    return std::ranges::any_of(notes, [](const std::string& note) {
+      return note.find("that nothing was fitted to: off by 0.100 mm (rms of 1,") != std::string::npos;
+    });
+  };
+  EXPECT_TRUE(says({entry("a", "b", "calibration"), entry("c", "d", "accept")}));
+  EXPECT_TRUE(says({entry("a", "b", "calibration"), entry("b", "a", "accept"), entry("c", "d", "accept")}));
+  EXPECT_FALSE(says({entry("a", "b", "calibration"), entry("b", "a", "accept")}));
+}
+
 TEST(ContactNotes, NameWiresWhoseZeroIsElsewhere) {
   RandomStream random{82};
   std::vector<std::pair<std::string, JointVector>> pulls;
