@@ -9,7 +9,7 @@ namespace demecal {
 
 /// A 6-joint elbow arm with offsets everywhere.
 inline Chain elbow() {
-  constexpr double kRight = std::numbers::pi / 2;
+  constexpr double kQuarterTurn = std::numbers::pi / 2;
   const auto link = [](double alpha_rad, double a_m, double d_m) {
     Joint joint;
     joint.alpha_rad = alpha_rad;
@@ -20,8 +20,8 @@ inline Chain elbow() {
     return joint;
   };
   return {Convention::standard_dh,
-          {link(-kRight, 0.15, 0.48), link(0, 0.6, 0), link(-kRight, 0.12, 0), link(kRight, 0, 0.64),
-           link(-kRight, 0, 0), link(0, 0, 0.2)},
+          {link(-kQuarterTurn, 0.15, 0.48), link(0, 0.6, 0), link(-kQuarterTurn, 0.12, 0), link(kQuarterTurn, 0, 0.64),
+           link(-kQuarterTurn, 0, 0), link(0, 0, 0.2)},
           {0.04, 0.01, 0.12}};
 }
 
