@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kBaseAndTool = 9;  ///< parameters before those of links
 
-/// Gauss-Newton steps of base, tool and one number; nothing where they end too far off.
-std::optional<TrialFit> fit_with(const Trial& trial, TrialFit fit, int joint, LinkParameter which, double most_m) {
+/// Gauss-Newton steps of base, tool and one number.
+std::optional<TrialFit> fit_with(const Trial& trial, TrialFit fit, int joint, LinkParameter which) {
   constexpr int kSteps = 15;
   constexpr double kHeld = 1e-9;  ///< information that holds what no pose sees
   const int column = kBaseAndTool + kLinkParameters * joint + static_cast<int>(which);
@@ -38,23 +38,22 @@ std::optional<TrialFit> fit_with(const Trial& trial, TrialFit fit, int joint, Li
     fit.tools_m.front() += change.segment<3>(6);
     fit.chain.joints[static_cast<std::size_t>(joint)].parameter(which) += change[kBaseAndTool];
   }
-  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
+  for (std::size_t i = 0; i < trial.rows.size(); ++i)
     fit.error_m[i] = (trial.rows[i].point_m - predicted_point(fit, trial.rows[i])).norm();
-    if (!(fit.error_m[i] <= most_m)) return std::nullopt;
-  }
   return fit;
 }
 
 }  // namespace
 
-std::vector<OtherNumber> numbers_that_explain(const Trial& trial, double most_m) {
+std::vector<OtherNumber> numbers_that_explain(const Trial& trial,
+                                              const std::function<bool(const std::vector<double>&)>& accepts) {
   constexpr double kAsNear_m = 2e-3;
   const TrialFit placed = fit_base_and_tools(trial);
   std::vector<std::pair<double, OtherNumber>> found;
   for (const LinkParameter which : {LinkParameter::theta, LinkParameter::a, LinkParameter::d, LinkParameter::alpha}) {
     for (int joint = 0; joint < trial.chain.size(); ++joint) {
-      auto fit = fit_with(trial, placed, joint, which, most_m);
-      if (!fit) continue;
+      auto fit = fit_with(trial, placed, joint, which);
+      if (!fit || !accepts(fit->error_m)) continue;
       const auto at = static_cast<std::size_t>(joint);
       const double by = fit->chain.joints[at].parameter(which) - trial.chain.joints[at].parameter(which);
       const ParameterId id{.kind = ParameterId::Kind::link, .index = joint, .link = which};

@@ -2,6 +2,7 @@
 // together are too many.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,9 @@ struct OtherNumber {
   TrialFit fit;          ///< of base, tool and that number
 };
 
-/// The numbers, each by itself, with which no point of a trial of one tool and station is off by more than `most_m`:
-/// that which leaves tool and base nearest to their description first, then those that do so as well.
-std::vector<OtherNumber> numbers_that_explain(const Trial& trial, double most_m);
+/// The numbers, each by itself, with which a trial of one tool and station is off by errors (m, of each row) that are
+/// accepted: that which leaves tool and base nearest to their description first, then those that do so as well.
+std::vector<OtherNumber> numbers_that_explain(const Trial& trial,
+                                              const std::function<bool(const std::vector<double>&)>& accepts);
 
 }  // namespace demecal::inline data_check

@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "data_check/other_number.hpp"
+#include "data_check/pendant_rounding.hpp"
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
-#include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
@@ -49,20 +49,20 @@ Trial trial_of(const DataSet& data) {
 }
 
 /// Where tool and base of a fit stand otherwise than described, a sentence each.
-std::vector<std::string> tool_and_base(const TrialFit& fit, const Chain& chain) {
+std::vector<std::string> tool_and_base(const TrialFit& fit, const Chain& chain, const PendantRounding& rounding) {
   std::vector<std::string> sentences;
+  const double told_m = rounding.typical_m();
   const Eigen::Vector3d& tool_m = fit.tools_m.front();
-  if ((tool_m - chain.tool_m).norm() > kPendantRounding_m) {
-    sentences.push_back(fmt::format(
-        "The tool: the controller's tool point is at {} on the flange, {} is described{}.", triple(tool_m),
-        triple(chain.tool_m), tool_m.norm() < 2.0 * kPendantRounding_m ? "; it shows the flange itself (tool 0)" : ""));
+  if ((tool_m - chain.tool_m).norm() > told_m) {
+    sentences.push_back(fmt::format("The tool: the controller's tool point is at {} on the flange, {} is described{}.",
+                                    triple(tool_m), triple(chain.tool_m),
+                                    tool_m.norm() < 2.0 * told_m ? "; it shows the flange itself (tool 0)" : ""));
   }
   const Eigen::Isometry3d& base = fit.sensor_from_base.front();
   const Eigen::Vector3d turn = vector_of(base.linear());
-  constexpr double kTurned_rad = 1e-3;
-  if (base.translation().norm() > kPendantRounding_m || turn.norm() > kTurned_rad) {
+  if (base.translation().norm() > told_m || turn.norm() > rounding.told_rad()) {
     std::string turned;
-    if (turn.norm() > kTurned_rad)
+    if (turn.norm() > rounding.told_rad())
       turned = fmt::format(", turned by {:.2f} deg about [{:.2f}, {:.2f}, {:.2f}]", degrees(turn.norm()),
                            turn.normalized().x(), turn.normalized().y(), turn.normalized().z());
     sentences.push_back(
@@ -79,30 +79,44 @@ constexpr const char* kOtherLinks = "The arm has other links than described:";
 class PendantSearch {
  public:
   PendantSearch(const DataSet& data, PendantComparison& result)
-      : data_(data), trial_(trial_of(data)), result_(result) {}
+      : data_(data), trial_(trial_of(data)), rounding_(data), result_(result) {}
 
   void run() {
-    const TrialFit placed = fit_base_and_tools(trial_);
-    if (settles(placed, {})) return;
-    constexpr double kSingleOnly_m = std::numeric_limits<double>::infinity();
-    const auto single = best_explanation(trial_, placed, kSingleOnly_m, true);
-    const auto signs = best_sign_set(trial_, {.zeros = false, .in_base = true});
-    if (signs && (!single || nearer(*signs, *single)) && settles(reading_of(*signs))) return;
-    if (single && settles(reading_of(*single))) return;
-    if (settles_without_one() || settles_with_one_number()) return;
-    if (const auto set = best_sign_set(trial_, {.zeros = true, .in_base = true}); set && settles(reading_of(*set)))
-      return;
-    if (const auto several = best_explanation(trial_, placed, kPendantRounding_m, true);
-        several && settles(reading_of(*several)))
-      return;
-    if (const auto mirrored = best_explanation(trial_, placed, kSingleOnly_m);
-        mirrored && settles(reading_of(*mirrored)))
-      return;
-    if (try_numbers({.registration = true, .tool = true, .joint_offset = true}, false)) return;
-    try_numbers({.registration = true, .tool = true, .joint_offset = true, .geometry = true}, true);
+    if (search(rounding_.is_coarse()) || !rounding_.is_coarse()) return;
+    rounding_.believe(true);
+    if (rounding_.accepts(result_.errors_m, trial_.rows)) {
+      result_.agrees = result_.explained = true;
+      result_.findings = left_open(data_, rounding_.typical_m());
+    } else {
+      search(false);
+    }
+    if (result_.explained) result_.findings.push_back(rounding_.sentence());
   }
 
  private:
+  /// `simple`: without what many numbers at once would fit by chance.
+  bool search(bool simple) {
+    const TrialFit placed = fit_base_and_tools(trial_);
+    if (settles(placed, {})) return true;
+    constexpr double kSingleOnly_m = std::numeric_limits<double>::infinity();
+    const auto single = best_explanation(trial_, placed, kSingleOnly_m, true);
+    const auto signs = best_sign_set(trial_, {.zeros = false, .in_base = true});
+    if (signs && (!single || nearer(signs->best, *single)) && settles(reading_of(*signs))) return true;
+    if (single && settles(reading_of(*single))) return true;
+    if (settles_without_one() || settles_with_one_number()) return true;
+    if (simple) return false;
+    if (const auto set = best_sign_set(trial_, {.zeros = true, .in_base = true}); set && settles(reading_of(*set)))
+      return true;
+    if (const auto several = best_explanation(trial_, placed, rounding_.typical_m(), true);
+        several && settles(reading_of(*several)))
+      return true;
+    if (const auto mirrored = best_explanation(trial_, placed, kSingleOnly_m);
+        mirrored && settles(reading_of(*mirrored)))
+      return true;
+    return try_numbers({.registration = true, .tool = true, .joint_offset = true}, false) ||
+           try_numbers({.registration = true, .tool = true, .joint_offset = true, .geometry = true}, true);
+  }
+
   /// Poses read otherwise, with the sentences that say how.
   struct Reading {
     Trial trial;
@@ -122,28 +136,35 @@ class PendantSearch {
 
   Reading reading_of(const Explanation& one) const { return reading_of(BestExplanation{{one}, {}}); }
 
+  Reading reading_of(const SignSetChoice& choice) const {
+    Reading reading = reading_of(choice.best);
+    std::ranges::move(alike_sentences(choice), std::back_inserter(reading.sentences));
+    return reading;
+  }
+
   /// Whether a set of signs leaves tool and base nearer to their description than a single reading that agrees.
   bool nearer(const Explanation& signs, const BestExplanation& single) const {
     constexpr double kNearer_m = 5e-3;
     const auto distance_m = [&](const Trial& read) {
       const TrialFit fit = fit_base_and_tools(read);
-      return largest(fit.error_m) > kPendantRounding_m ? std::numeric_limits<double>::infinity()
-                                                       : distance_from_description_m(read, fit, true);
+      return rounding_.accepts(fit.error_m, read.rows) ? distance_from_description_m(read, fit, true)
+                                                       : std::numeric_limits<double>::infinity();
     };
     return distance_m(reading_of(signs).trial) + kNearer_m < distance_m(reading_of(single).trial);
   }
 
   bool settles(const Reading& reading) {
-    return settles(fit_base_and_tools(reading.trial), reading.sentences, reading.trial.chain);
+    return settles(fit_base_and_tools(reading.trial), reading.trial.rows, reading.sentences, reading.trial.chain);
   }
 
   bool settles(const TrialFit& fit, std::vector<std::string> readings) {
-    return settles(fit, std::move(readings), data_.robot.chain);
+    return settles(fit, trial_.rows, std::move(readings), data_.robot.chain);
   }
 
-  bool settles(const TrialFit& fit, std::vector<std::string> readings, const Chain& described) {
-    if (largest(fit.error_m) > kPendantRounding_m) return false;
-    std::ranges::move(tool_and_base(fit, described), std::back_inserter(readings));
+  bool settles(const TrialFit& fit, const std::vector<TrialRow>& rows, std::vector<std::string> readings,
+               const Chain& described) {
+    if (!rounding_.accepts(fit.error_m, rows)) return false;
+    std::ranges::move(tool_and_base(fit, described, rounding_), std::back_inserter(readings));
     result_.findings = std::move(readings);
     result_.explained = true;
     return true;
@@ -157,21 +178,26 @@ class PendantSearch {
       Trial rest = trial_;
       rest.rows.erase(rest.rows.begin() + static_cast<std::ptrdiff_t>(out));
       TrialFit without = fit_base_and_tools(rest);
-      if (largest(without.error_m) > kPendantRounding_m) continue;
+      if (!rounding_.accepts(without.error_m, rest.rows)) continue;
       if (odd) return false;
       odd = out;
       fit = std::move(without);
     }
     if (!odd) return false;
     const MeasuredPose& pose = data_.poses[*odd];
-    return settles(fit, {fmt::format("Line {}{}: the other {} poses agree, and by them its point is at {}, not at {}: "
-                                     "correct it, or read it off again.",
-                                     pose.line, name_beside_line(pose), fit.error_m.size(),
-                                     triple(predicted_point(fit, trial_.rows[*odd])), triple(*pose.position_m))});
+    std::vector<TrialRow> rest = trial_.rows;
+    rest.erase(rest.begin() + static_cast<std::ptrdiff_t>(*odd));
+    return settles(fit, rest,
+                   {fmt::format("Line {}{}: the other {} poses agree, and by them its point is at {}, not at {}: "
+                                "correct it, or read it off again.",
+                                pose.line, name_beside_line(pose), fit.error_m.size(),
+                                triple(predicted_point(fit, trial_.rows[*odd])), triple(*pose.position_m))},
+                   data_.robot.chain);
   }
 
   bool settles_with_one_number() {
-    const std::vector<OtherNumber> numbers = numbers_that_explain(trial_, kPendantRounding_m);
+    const std::vector<OtherNumber> numbers = numbers_that_explain(
+        trial_, [this](const std::vector<double>& errors_m) { return rounding_.accepts(errors_m, trial_.rows); });
     if (numbers.empty()) return false;
     std::vector<std::string> readings{numbers.front().is_zero ? kOtherZeros : kOtherLinks, numbers.front().sentence};
     for (std::size_t i = 1; i < numbers.size(); ++i)
@@ -182,6 +208,7 @@ class PendantSearch {
   /// Whether other numbers of the links make it fit; those that differ most are named.
   bool try_numbers(const DeclaredModel& declared, bool links) {
     constexpr std::size_t kMostNamed = 6;
+    constexpr double kTold = 4.0;  ///< standard errors
     std::vector<std::size_t> all(data_.poses.size());
     std::iota(all.begin(), all.end(), std::size_t{0});
     FitOptions options;
@@ -189,14 +216,15 @@ class PendantSearch {
     options.prior_rad = 3.0;
     options.robust = false;
     const Fit fit = fit_declared(data_, all, declared, nominal_robot(data_), options);
-    if (fit.status != FitStatus::converged || largest(tool_errors_m(fit.robot, data_, all)) > kPendantRounding_m)
+    if (fit.status != FitStatus::converged || !rounding_.accepts(tool_errors_m(fit.robot, data_, all), trial_.rows))
       return false;
     std::vector<std::pair<double, std::string>> named;
     for (const ParameterEstimate& estimate : fit.estimates) {
       if (estimate.id.kind != ParameterId::Kind::link) continue;
       const double difference = estimate.value - estimate.nominal;
       const bool is_angle = estimate.id.is_angle();
-      if (std::abs(difference) < (is_angle ? 1e-3 : kPendantRounding_m)) continue;
+      const double noise = rounding_.is_believed() ? kTold * estimate.standard_error : 0.0;
+      if (std::abs(difference) < std::max(noise, is_angle ? 1e-3 : kPendantRounding_m)) continue;
       named.emplace_back(std::abs(difference) * (is_angle ? 1.0 : 1.0 / 0.5),
                          fmt::format("{} differs by {:.2f}.", estimate.id.name(),
                                      is_angle ? degrees(difference) : millimetres(difference)));
@@ -212,53 +240,9 @@ class PendantSearch {
 
   const DataSet& data_;
   Trial trial_;
+  PendantRounding rounding_;
   PendantComparison& result_;
 };
-
-/// "joint 6", "joints 4 and 6".
-std::string joints_text(const std::vector<int>& joints) {
-  std::string text = joints.size() == 1 ? "joint " : "joints ";
-  for (std::size_t i = 0; i < joints.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == joints.size() ? " and " : ", ") + std::to_string(joints[i] + 1);
-  return text;
-}
-
-/// Joints of which the poses would agree with another sign, or another zero, as well: none of them, or too little,
-/// moves the tool point.
-std::vector<int> untested_joints(const DataSet& data) {
-  constexpr double kOtherZero = 0.1;  // rad or m
-  std::vector<int> untested;
-  for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
-    const auto changes = [&](double factor, double offset) {
-      return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
-        JointVector joints = pose.joints;
-        joints[joint] = factor * joints[joint] + offset;
-        const Eigen::Vector3d tool_m = nominal_tool(data, pose);
-        const Eigen::Vector3d moved_m =
-            forward(data.robot.chain, joints) * tool_m - forward(data.robot.chain, pose.joints) * tool_m;
-        return moved_m.norm() > 2.0 * kPendantRounding_m;
-      });
-    };
-    if (!changes(-1.0, 0.0) || !changes(1.0, kOtherZero)) untested.push_back(joint);
-  }
-  return untested;
-}
-
-/// What poses that agree leave open, a sentence each.
-std::vector<std::string> left_open(const DataSet& data) {
-  std::vector<std::string> sentences;
-  if (const std::vector<int> joints = untested_joints(data); !joints.empty()) {
-    const bool one = joints.size() == 1;
-    sentences.push_back(fmt::format(
-        "These poses tell nothing of the sign or the zero of {}: with the described tool {} not move the points, or "
-        "{} at zero in all of them. Set a tool off the last axis and its tool_mm, turn {} well, and read off again.",
-        joints_text(joints), one ? "it does" : "they do", one ? "stands" : "stand", one ? "it" : "them"));
-  }
-  if (data.poses.size() < kFewestPendantPoses)
-    sentences.push_back(fmt::format("So few poses ({}) agree with other descriptions too: read off {} at least.",
-                                    data.poses.size(), kFewestPendantPoses));
-  return sentences;
-}
 
 }  // namespace
 
@@ -268,7 +252,7 @@ PendantComparison compare_with_pendant(const DataSet& data) {
   for (const MeasuredPose& pose : data.poses) result.errors_m.push_back(tool_error_m(nominal, data, pose));
   result.agrees = result.explained = largest(result.errors_m) <= kPendantRounding_m;
   if (result.agrees) {
-    result.findings = left_open(data);
+    result.findings = left_open(data, kPendantRounding_m);
     return result;
   }
   if (data.poses.size() < kFewestPendantPoses) {
@@ -278,10 +262,16 @@ PendantComparison compare_with_pendant(const DataSet& data) {
     return result;
   }
   PendantSearch(data, result).run();
-  if (!result.explained)
+  if (!result.explained) {
     result.findings.emplace_back(
         "No sign, exchange, convention, unit, zero or link length explains it: another robot, or poses that were not "
         "read off as they stand (another tool or user frame for some of them).");
+    if (data.robot.chain.size() > kMostSigned)
+      result.findings.push_back(fmt::format(
+          "Signs of several joints at once were not tried: of arms with more than {} joints, and this one has {}, the "
+          "sets of signs are too many.",
+          kMostSigned, data.robot.chain.size()));
+  }
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,7 @@ constexpr double kFarDeviations = 8.0;  ///< beyond which no noise goes
 constexpr double kFarOverMost = 3.5;    ///< over the deviations that four in five poses keep: 7.5 deviations if normal
 constexpr double kWithinNoise = 3.2;    ///< deviations within which a changed pose fits (95 % of poses do)
 constexpr double kMuchBetter = 0.1;     ///< ratio of errors that chance gives a wrong joint in few of 100 outliers
+constexpr double kFarBetter = 0.02;     ///< the same where it is not asked for to be within noise
 constexpr std::size_t kMostSearched = 60;  ///< poses whose joints are searched for typing errors
 constexpr std::size_t kLongestCycle = 4;
 constexpr int kSamplesPerTurn = 360;
@@ -53,9 +55,9 @@ class OutlierSearch {
       off.push_back(predict.deviations_off(row));
     }
     median_m_ = median(errors);
-    const double far = std::max(kFarDeviations, kFarOverMost * quantile_of(off, 0.8));
+    far_deviations_ = std::max(kFarDeviations, kFarOverMost * quantile_of(off, 0.8));
     for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!(off[i] <= far || errors[i] <= least_m)) far_.push_back({i, errors[i]});
+      if (!(off[i] <= far_deviations_ || errors[i] <= least_m)) far_.push_back({i, errors[i]});
   }
 
   std::vector<Finding> findings() {
@@ -78,8 +80,18 @@ class OutlierSearch {
     return fmt::format("line {}{}", pose.line, name_beside_line(pose));
   }
   double error(const TrialRow& row) const { return (row.point_m - predict_.point(row)).norm(); }
+  /// Whether a row that was changed by a number found for it fits.
   bool fits(const TrialRow& row, double before_m) const {
-    return error(row) < kMuchBetter * before_m && predict_.deviations_off(row) < kWithinNoise;
+    const double error_m = error(row), off = predict_.deviations_off(row);
+    return (error_m < kMuchBetter * before_m && off < kWithinNoise) ||
+           (error_m < kFarBetter * before_m && off <= far_deviations_);
+  }
+  /// The same of a change without such a number, which chance makes fit so well by far more seldom: poses of real arms
+  /// err by more than noise.
+  bool fits_unsearched(const TrialRow& row, double before_m) const {
+    const double error_m = error(row);
+    return error_m < kFarBetter * before_m ||
+           (error_m < kMuchBetter * before_m && predict_.deviations_off(row) <= far_deviations_);
   }
 
   /// The far row at whose joints this row's point fits best, if one does.
@@ -91,7 +103,7 @@ class OutlierSearch {
       TrialRow moved = rows_[far_[j].row];
       moved.point_m = rows_[far_[i].row].point_m;
       const double error_m = error(moved);
-      if ((place && error_m >= least) || !fits(moved, far_[i].error_m)) continue;
+      if ((place && error_m >= least) || !fits_unsearched(moved, far_[i].error_m)) continue;
       place = j;
       least = error_m;
     }
@@ -193,6 +205,39 @@ class OutlierSearch {
     return best;
   }
 
+  /// One coordinate with the other sign, or two exchanged, by which the row fits best, if it fits by one.
+  std::optional<Finding> wrong_coordinates(const FarPose& misfit) const {
+    constexpr std::string_view kAxes = "xyz";
+    std::optional<Finding> best;
+    double least_m = 0.0;
+    const auto take = [&](const Eigen::Vector3d& point_m, const std::string& change) {
+      TrialRow changed = rows_[misfit.row];
+      changed.point_m = point_m;
+      const double error_m = error(changed);
+      if ((best && error_m >= least_m) || !fits_unsearched(changed, misfit.error_m)) return;
+      least_m = error_m;
+      best =
+          Finding{.kind = FindingKind::typing_error,
+                  .poses = {id(misfit.row)},
+                  .as_given_mm = millimetres(misfit.error_m),
+                  .if_changed_mm = millimetres(error_m),
+                  .sentence = fmt::format("{} fits if {}: {:.2f} mm off as given, {:.2f} mm if changed.",
+                                          id(misfit.row), change, millimetres(misfit.error_m), millimetres(error_m))};
+    };
+    for (Eigen::Index axis = 0; axis < 3; ++axis) {
+      Eigen::Vector3d point_m = rows_[misfit.row].point_m;
+      point_m[axis] = -point_m[axis];
+      take(point_m, fmt::format("its measured {} is taken with the other sign", kAxes[static_cast<std::size_t>(axis)]));
+      const Eigen::Index next = (axis + 1) % 3;
+      point_m = rows_[misfit.row].point_m;
+      std::swap(point_m[axis], point_m[next]);
+      take(point_m,
+           fmt::format("its measured {} and {} are exchanged", kAxes[static_cast<std::size_t>(std::min(axis, next))],
+                       kAxes[static_cast<std::size_t>(std::max(axis, next))]));
+    }
+    return best;
+  }
+
   Finding single_pose_finding(const FarPose& misfit, bool searched) const {
     const TrialRow& row = rows_[misfit.row];
     Finding finding{
@@ -204,6 +249,7 @@ class OutlierSearch {
                                      id(misfit.row), id(*other), finding.as_given_mm);
       return finding;
     }
+    if (auto coordinates = wrong_coordinates(misfit)) return *std::move(coordinates);
     const auto typed = searched ? typing_error(row, misfit.error_m) : std::nullopt;
     if (!typed) {
       finding.sentence = fmt::format("{} is {:.2f} mm off, far more than the others ({:.2f} mm at the median).",
@@ -227,7 +273,7 @@ class OutlierSearch {
   const DataSet& data_;
   const std::vector<TrialRow>& rows_;
   const PointPrediction& predict_;
-  double median_m_ = 0.0;
+  double median_m_ = 0.0, far_deviations_ = 0.0;
   std::vector<FarPose> far_;
 };
 

@@ -256,10 +256,10 @@ std::optional<BestExplanation> best_explanation(const Trial& trial, const TrialF
   Tried best = all[chosen];
   const bool mirrors = best.explanations.front().kind == FindingKind::mirrored;
   const auto signs = mirrors || best.fit.median_m > good_m ? best_sign_set(trial, {}) : std::nullopt;
-  if (mirrors && signs) set_signs_beside(trial, *signs, best, equals);
+  if (mirrors && signs) set_signs_beside(trial, signs->best, best, equals);
   if (best.fit.median_m > good_m) {
     std::vector<std::vector<Explanation>> starts{best.explanations, best_pair(trial)};
-    if (signs) starts.push_back({*signs});
+    if (signs) starts.push_back({signs->best});
     for (const std::vector<Explanation>& start : starts) {
       Tried tried = greedily_extended(trial, attempt(trial, start));
       tried.fit = fit_arm(tried.trial, tried.fit);

@@ -16,7 +16,6 @@
 namespace demecal::inline trials {
 namespace {
 
-constexpr int kMostSigned = 8;             ///< joints of which all sets are tried
 constexpr std::size_t kSignRows = 30;      ///< rows that sets are tried on
 constexpr double kFitAlike = 1.2;          ///< ratio of medians up to which sets fit alike
 constexpr double kAlikeDistance_m = 2e-3;  ///< up to which sets leave the description alike
@@ -124,7 +123,22 @@ double distance_from_description_m(const Trial& trial, const TrialFit& fit, bool
   return distance_m + base.translation().norm() + kLever_m * vector_of(base.linear()).norm();
 }
 
-std::optional<Explanation> best_sign_set(const Trial& trial, SignSetSearch search) {
+std::vector<std::string> alike_sentences(const SignSetChoice& choice) {
+  constexpr std::size_t kNamed = 5;
+  std::vector<std::string> sentences;
+  for (std::size_t i = 0; i < std::min(choice.alike.size(), kNamed); ++i) {
+    const SignSetChoice::Alike& other = choice.alike[i];
+    sentences.push_back(fmt::format(
+        "Fits alike: {}; tool and base then stand {:.1f} mm from their description, with the set above {:.1f} mm.",
+        other.clause.empty() ? "joints are taken as they are" : other.clause, millimetres(other.distance_m),
+        millimetres(choice.distance_m)));
+  }
+  if (choice.alike.size() > kNamed)
+    sentences.push_back(fmt::format("Fits alike: {} sets of signs more.", choice.alike.size() - kNamed));
+  return sentences;
+}
+
+std::optional<SignSetChoice> best_sign_set(const Trial& trial, SignSetSearch search) {
   const int n = trial.chain.size();
   if (n > kMostSigned || n < 2 || trial.rows.empty()) return std::nullopt;
   Trial fewer{trial.chain, trial.tools_m, {}, trial.stations};
@@ -142,18 +156,26 @@ std::optional<Explanation> best_sign_set(const Trial& trial, SignSetSearch searc
     }
   }
   std::optional<SignSet> best;
+  std::vector<SignSet> alike;
   for (const SignSet& set : sets) {
     if (set.median_m > kFitAlike * least_m) continue;
-    SignSet turned = with_outer_zeros(fewer, search.in_base, set);
+    alike.push_back(with_outer_zeros(fewer, search.in_base, set));
+    const SignSet& turned = alike.back();
     const double nearer_m = best ? best->distance_m - turned.distance_m : 1.0;
     if (!best || nearer_m > kAlikeDistance_m || (nearer_m > -kAlikeDistance_m && turned.changes() < best->changes()))
-      best = std::move(turned);
+      best = turned;
   }
   if (!best || best->changes() == 0) return std::nullopt;
   const SignSet& set = *best;
   const bool negates = std::ranges::count(set.factors, -1.0) > 0;
-  return Explanation{negates ? FindingKind::joint_sign : FindingKind::joint_offset, -1, signs_clause(set),
-                     [set](Trial& read) { set.apply(read); }};
+  SignSetChoice choice{{negates ? FindingKind::joint_sign : FindingKind::joint_offset, -1, signs_clause(set),
+                        [set](Trial& read) { set.apply(read); }},
+                       set.distance_m};
+  std::ranges::stable_sort(alike, {}, &SignSet::changes);
+  for (const SignSet& other : alike)
+    if (const std::string clause = signs_clause(other); clause != choice.best.clause)
+      choice.alike.push_back({clause, other.distance_m});
+  return choice;
 }
 
 }  // namespace demecal::inline trials

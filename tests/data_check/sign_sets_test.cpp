@@ -62,6 +62,43 @@ TEST(PendantSigns, SeveralAreNamedWithTheDescribedTool) {
   }
 }
 
+TEST(PendantSigns, OthersThatFitAlikeAreListed) {
+  // Joint 6 stands still, and the tool is off its axis: its sign moves no point.
+  DataSet data = shown({1, -1, -1, 1, -1, 1}, kNoZeros);
+  for (MeasuredPose& pose : data.poses) {
+    JointVector joints = pose.joints;
+    joints[5] = 0.0;
+    pose.joints = joints;
+    for (const Eigen::Index joint : {1, 2, 4}) joints[joint] *= -1.0;
+    pose.position_m = forward(data.robot.chain, joints) * data.robot.chain.tool_m;
+  }
+  const PendantComparison comparison = compare_with_pendant(data);
+  ASSERT_FALSE(comparison.findings.empty());
+  EXPECT_EQ(comparison.findings[0], "It fits if joints 2, 3 and 5 are taken with the other sign.");
+  EXPECT_TRUE(std::ranges::any_of(comparison.findings, [](const std::string& finding) {
+    return finding.starts_with("Fits alike: joints 2, 3, 5 and 6 are taken with the other sign;");
+  })) << ::testing::PrintToString(comparison.findings);
+}
+
+TEST(PendantSigns, AreSaidNotToBeTriedOfArmsWithManyJoints) {
+  RandomStream stream{3305};
+  DataSet data;
+  data.robot.chain = elbow();
+  for (int i = 0; i < 3; ++i) data.robot.chain.joints.push_back(elbow().joints[static_cast<std::size_t>(i)]);
+  data.frame = Frame::base;
+  for (int i = 0; i < 40; ++i) {
+    MeasuredPose pose;
+    pose.joints = random_joints(stream, data.robot.chain);
+    pose.position_m = Eigen::Vector3d(stream.normal(), stream.normal(), stream.normal());
+    pose.pose_id = std::to_string(i + 1);
+    data.poses.push_back(std::move(pose));
+  }
+  const PendantComparison comparison = compare_with_pendant(data);
+  ASSERT_EQ(comparison.findings.size(), 2U);
+  EXPECT_TRUE(comparison.findings[1].starts_with("Signs of several joints at once were not tried"))
+      << comparison.findings[1];
+}
+
 TEST(PendantSigns, AColumnInAnotherUnitIsNamed) {
   DataSet data = shown({1, 1, 1, 1, 1, 1}, kNoZeros);
   for (MeasuredPose& pose : data.poses) pose.position_m->x() *= 1e3;
