@@ -83,10 +83,10 @@ struct PointPrediction {
 
 /// A finding for each pose among `rows` (of any sets) that lies farther out than 8 standard deviations, than 3.5
 /// times what four in five poses keep, and than `least_m`, which good poses may err by: rows whose points fit each
-/// other's joints (a cycle of up to four), points that stand beside other joints too, one coordinate with the other sign
-/// or two exchanged, by which it fits ten times better and lies no farther out than those above do; one joint with
-/// another value (or two exchanged) by which the pose fits to within the noise and ten times better; and what is left as
-/// outliers, each with its error. Fifty times better is enough for all of these.
+/// other's joints (a cycle of up to four), points that stand beside other joints too, one coordinate with the other
+/// sign or two exchanged, by which it fits ten times better and lies no farther out than those above do; one joint with
+/// another value (or two exchanged) by which the pose fits to within the noise and ten times better; and what is left
+/// as outliers, each with its error. Fifty times better is enough for all of these.
 std::vector<Finding> find_single_poses(const DataSet& data, const std::vector<TrialRow>& rows,
                                        const PointPrediction& predict, double least_m);
 
