@@ -37,7 +37,9 @@ Finding in_other_frame(const OtherSet& other) {
       .if_changed_mm = millimetres(other.if_changed_m),
       .sentence = fmt::format(
           "The data were measured in another frame than the model's: their points lie {} from where it puts them {}. "
-          "`demecal evaluate --refit-base` fits base and tool to them first.",
+          "`demecal evaluate --refit-base` fits base and tool to them first, and so does a fit whose `model.declared` "
+          "has "
+          "registration.",
           distance_text(other.shift_m), before_and_after(other.as_given_m, other.if_changed_m))};
 }
 

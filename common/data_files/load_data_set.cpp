@@ -82,6 +82,7 @@ void exclude_poses(const YamlNode* ids, DataSet& data) {
   for (const YamlNode& id : ids->list()) {
     const std::string name = id.text();
     const auto named = [&name](const MeasuredPose& pose) { return pose.pose_id == name; };
+    if (std::ranges::any_of(data.excluded, named)) id.fail(name, "is excluded already");
     if (std::ranges::none_of(data.poses, named)) {
       std::vector<std::string> names;
       for (const MeasuredPose& pose : data.poses) names.push_back(pose.pose_id);

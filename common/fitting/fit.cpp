@@ -47,7 +47,8 @@ Fit too_few(const CorrectedRobot& start, std::size_t poses, int rows, int parame
   }
   fit.sentence = std::to_string(poses) + (poses == 1 ? " pose gives " : " poses give ") + std::to_string(rows) +
                  " measured numbers; " + std::to_string(parameters) + " free parameters need at least " +
-                 std::to_string(parameters + 1);
+                 std::to_string(parameters + 1) +
+                 ": measure more poses, let more of them be calibration poses, or declare fewer parts of the model";
   return fit;
 }
 

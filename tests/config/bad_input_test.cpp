@@ -112,6 +112,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadInput{"WrongUnit", "dataset.yaml", "[q1_deg, q2_mm]", "[q2_mm, q1_deg]", "dataset.yaml:7", "q2_mm",
                  "ends in a unit of a length"},
         BadInput{"NoUnit", "dataset.yaml", "[l1_mm]", "[pose_id]", "dataset.yaml:12", "pose_id", "is named twice"},
+        BadInput{"ExcludesTwice", "dataset.yaml", "frame: base", "exclude: [P1, P1]", "dataset.yaml:16", "P1",
+                 "is excluded already"},
         BadInput{"ExcludesNoPose", "dataset.yaml", "frame: base", "exclude: [P9]", "dataset.yaml:16", "P9",
                  "is the id of no pose; the nearest is 'P1'"},
         BadInput{"UnknownFrame", "dataset.yaml", "frame: base", "frame: world", "dataset.yaml:16", "world",
