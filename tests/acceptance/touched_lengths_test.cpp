@@ -78,7 +78,9 @@ TEST(TouchedLengths, ThatTheModelWasFittedToAreNotJudged) {
   const std::size_t own = data.poses.size();
   const auto judged = [&] {
     Certificate certificate;
-    judge_lengths(model, data, rows, {.tolerance_m = 1e-3}, certificate);
+    CertifiedRun run;
+    run.tolerance_m = 1e-3;
+    judge_lengths(model, data, rows, run, certificate);
     return certificate.poses.size();
   };
   const std::size_t all = judged();
