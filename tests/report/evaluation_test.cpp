@@ -192,7 +192,8 @@ TEST(ContactNotes, CallNoLengthUnfittedThatOtherPosesTouchAgain) {
   const JointVector here = JointVector::Constant(6, 0.3), there = JointVector::Constant(6, -0.9);
   const DataSet data = touching({{"a", here}, {"b", there}});
   const auto entry = [](const std::string& one, const std::string& other, const std::string& set) {
-    return LengthErrorEntry{.between = {one, other}, .set = set, .known_mm = 50.0, .sigma_mm = 0.05, .error_mm = 0.1};
+    return LengthErrorEntry{
+        .between = {one, other}, .set = set, .known_mm = 50.0, .sigma_mm = 0.05, .before_mm = {}, .error_mm = 0.1};
   };
   const auto says = [&](const std::vector<LengthErrorEntry>& lengths) {
     const auto notes = contact_notes(data, nominal_robot(data), lengths, {"calibration"});
