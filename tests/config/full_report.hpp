@@ -38,6 +38,7 @@ inline Report full_report() {
                         {0, 0, 50},
                         {{3, 2, 1.0}}};
   report.stations = {{"north", 30, report.registered, report.before, report.after, {}, {}}};
+  report.unexplained = UnexplainedEntry{.error_mm = 0.26, .left_mm = 0.3, .noise_mm = 0.15, .advice = "Measure more."};
   report.length_errors = {{{"left", "right"}, "accept", 50.0, 0.05, 0.4, 0.06}};
   report.contacts = {{"left", "accept", "point", 30, 8.1, 0.7, 0.5}};
   report.contact_notes = {"No length is known."};
