@@ -169,7 +169,8 @@ TEST(Fit, SaysWhenPosesAreTooFew) {
   measure(arm, stream, {}, 11);
   const Fit fit = fit_all(arm, kAll);
   EXPECT_EQ(fit.status, FitStatus::too_few_poses);
-  EXPECT_THAT(fit.sentence, HasSubstr("11 poses give 33 measured numbers; 33 free parameters need at least 34: measure more"));
+  EXPECT_THAT(fit.sentence,
+              HasSubstr("11 poses give 33 measured numbers; 33 free parameters need at least 34: measure more"));
   EXPECT_EQ(largest_error_m(fit.robot, arm, stream), 0.0);
   measure(arm, stream, {}, 1);
   EXPECT_NE(fit_all(arm, kAll).status, FitStatus::too_few_poses);
