@@ -162,7 +162,10 @@ TEST_F(ServedJobs, OfferNothingOfAnEarlierRun) {
 }
 
 TEST_F(ServedJobs, KeepWhatARunReachedThatGoesOnButItsCertificate) {
-  { JobService(options()).answer({.user = "ann", .changes = true, .path = {"jobs", "first", "make"}}); }
+  {
+    JobService(options()).answer(
+        {.user = "ann", .changes = true, .path = {"jobs", "first", "make"}, .parameters = {}, .body = {}});
+  }
   leave_results("first", {"certificate.pdf", "model.yaml", "events.jsonl", "run.journal"});
   std::ofstream(job("first") / "input/job.yaml") << "demecal_job: 1\n";
   std::ofstream(job("first") / "job.json") << record_text({.state = JobState::interrupted, .exit_code = 130});
