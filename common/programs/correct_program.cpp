@@ -270,7 +270,7 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
     const Target& target = result.program.targets[i];
     result.targets[i] = corrector.correct(target, visits[i], line);
     note_unknown_side(target, result.targets[i], visits[i].front().differing_sides ? differing : unknown);
-    for (std::string& sentence : warnings_of(target, result.targets[i], model)) {
+    for (std::string& sentence : warnings_of(result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
   }

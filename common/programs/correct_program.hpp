@@ -60,7 +60,7 @@ std::string replaced(std::string_view text, const Program& program, const std::v
 std::vector<std::string> corrected_files(const ProgramSource& source, const CorrectedProgram& corrected);
 
 /// A sentence for each thing that is not as it should be; none where all is well.
-std::vector<std::string> warnings_of(const Target& target, const CorrectedTarget& corrected, const CommandModel& model);
+std::vector<std::string> warnings_of(const CorrectedTarget& corrected, const CommandModel& model);
 
 /// The same of the program, as read, as a whole, such as a tool that was identified far from where it is described, or
 /// effects that depend on what neither its targets nor `circumstances` state.

@@ -166,8 +166,7 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
 
 }  // namespace
 
-std::vector<std::string> warnings_of(const Target& /*target*/, const CorrectedTarget& corrected,
-                                     const CommandModel& model) {
+std::vector<std::string> warnings_of(const CorrectedTarget& corrected, const CommandModel& model) {
   if (corrected.outcome == CorrectionOutcome::no_joints) {
     return {"the nominal robot does not reach the pose; it is left as it is"};
   }
