@@ -167,8 +167,8 @@ CorrectedRobot nominal_robot(const DataSet& data) {
   robot.corrections.resize(robot.chain.joints.size());
   for (const MeasuredPose& pose : data.poses) {
     if (!pose.payload_kg) continue;
-    Interval& range =
-        robot.payloads_kg ? *robot.payloads_kg : robot.payloads_kg.emplace(*pose.payload_kg, *pose.payload_kg);
+    Interval& range = robot.payloads_kg ? *robot.payloads_kg
+                                        : robot.payloads_kg.emplace(Interval{*pose.payload_kg, *pose.payload_kg});
     range = {std::min(range.lower, *pose.payload_kg), std::max(range.upper, *pose.payload_kg)};
   }
   return robot;
