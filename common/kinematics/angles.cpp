@@ -89,11 +89,19 @@ Eigen::Matrix3d left_jacobian(const Eigen::Vector3d& vector_rad) {
 
 namespace {
 
-/// Angles about x, then the new y, then the new z: the origin's angles of the inverse, the other way round.
+/// Angles about the fixed x, y and z, that about y within +-90 deg, as controllers show them.
+Eigen::Vector3d about_fixed_xyz(const Eigen::Matrix3d& rotation) {
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  pose.linear() = rotation;
+  const Eigen::Vector3d rpy = origin_of(pose).rpy_rad;
+  if (std::abs(rpy.y()) <= std::numbers::pi / 2.0) return rpy;
+  const double half = std::numbers::pi;
+  return {wrap_near(rpy.x() + half, 0.0), wrap_near(half - rpy.y(), 0.0), wrap_near(rpy.z() + half, 0.0)};
+}
+
+/// Angles about x, then the new y, then the new z: those of the inverse, the other way round.
 Eigen::Vector3d about_own_xyz(const Eigen::Matrix3d& rotation) {
-  Eigen::Isometry3d inverse = Eigen::Isometry3d::Identity();
-  inverse.linear() = rotation.transpose();
-  return -origin_of(inverse).rpy_rad;
+  return -about_fixed_xyz(rotation.transpose());
 }
 
 /// Angles about z, then the new y, then the new z.
@@ -111,9 +119,7 @@ std::vector<double> in_degrees(const Eigen::Vector3d& angles_rad) {
 }  // namespace
 
 std::vector<ControllerAngles> controller_angles(const Eigen::Matrix3d& rotation) {
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  pose.linear() = rotation;
-  const Eigen::Vector3d rpy = origin_of(pose).rpy_rad;
+  const Eigen::Vector3d rpy = about_fixed_xyz(rotation);
   const Eigen::Quaterniond turn(rotation);
   const double sign = turn.w() < 0.0 ? -1.0 : 1.0;
   const Eigen::Vector3d vector = vector_of(rotation);
