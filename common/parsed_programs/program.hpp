@@ -41,6 +41,8 @@ struct ArmHint {
   std::vector<std::size_t> counted_turns{};
   /// Of each joint, where the words state by how many whole turns: 0 from -180 to 180 degrees, 1 from 180 to 540, ...
   std::vector<std::optional<int>> turns{};
+  /// Along a line KUKA's controllers go on from where the arm is: what S and T say counts for PTP alone.
+  bool counts_on_lines() const { return negative.empty(); }
   bool empty() const {
     return near.size() == 0 && quadrants.empty() && negative.empty() && configuration.empty() && parts.empty();
   }

@@ -238,7 +238,8 @@ Configurations ConfigurationFinder::find_any(const Chain& arm, const Target& tar
   const bool named = hint.near.size() == arm.size();
   const bool given = near_.size() == arm.size();
   const bool states = !hint.quadrants.empty() || !hint.negative.empty();
-  if (!named && !states && present_ && target.motion == Motion::line && !states_others(hint)) {
+  const bool goes_on = !states || !hint.counts_on_lines();
+  if (!named && goes_on && present_ && target.motion == Motion::line && !states_others(hint)) {
     if (auto end = joints_after_line(arm, *present_, tool)) return {JointsFrom::line, {std::move(*end)}};
   }
   if (!hint.configuration.empty()) return in_stated_turns(find_worded(arm, hint.configuration, tool), hint);

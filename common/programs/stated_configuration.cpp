@@ -65,8 +65,7 @@ std::string leaving_stated(const Target& target, const Chain& arm, const JointVe
   const std::string not_corrected = ": this line was not corrected; a point that is taught farther from there can be";
   const ArmHint& hint = target.hint;
   if (!target.is_pose() || hint.empty() || nominal == command) return "";
-  // Along a line KUKA's controllers go on from where the arm is: what S and T say counts for PTP alone.
-  if (target.motion == Motion::line && !hint.negative.empty()) return "";
+  if (target.motion == Motion::line && !hint.counts_on_lines()) return "";
   for (std::size_t joint = 0; joint < arm.joints.size(); ++joint) {
     if (contradictions(only_of(hint, joint), command) > 0)
       return taken(arm, joint, nominal, command) + ", out of the configuration that its line states, " +
