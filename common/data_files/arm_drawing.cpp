@@ -107,8 +107,8 @@ std::string gear_entry(const Joint& row) {
 void read_counting(const YamlNode& node, DrawnJoint& joint) {
   if (const YamlNode* name = node.find("name")) joint.name = name->text();
   if (const YamlNode* direction = node.find("direction")) {
-    joint.direction = static_cast<int>(direction->whole_number(-1, 1));
-    if (joint.direction == 0) direction->fail("must be 1 or -1");
+    joint.direction = static_cast<int>(direction->number());
+    if (std::abs(direction->number()) != 1.0) direction->fail("must be 1 or -1");
   }
   const bool revolute = is_revolute(joint.row);
   if (const YamlNode* wrong = node.find(revolute ? "offset_mm" : "offset_deg")) {

@@ -54,14 +54,16 @@ UrdfSource read_urdf_source(const YamlNode& node) {
 JointVector read_declared_home(const YamlNode& node, const Chain& chain) {
   const std::vector<double> values = node.numbers();
   if (std::ssize(values) != chain.size())
-    node.fail(std::to_string(values.size()) + " numbers", "the robot has " + std::to_string(chain.size()) + " joints");
+    node.fail(std::to_string(values.size()) + " numbers",
+              "must be " + std::to_string(chain.size()) + ", one for each of the robot's joints");
   return joints_from_deg_or_mm(chain, values);
 }
 
 std::vector<double> read_pulses(const YamlNode& node, const Chain& chain) {
   const std::vector<double> values = node.numbers();
   if (std::ssize(values) != chain.size())
-    node.fail(std::to_string(values.size()) + " numbers", "the robot has " + std::to_string(chain.size()) + " joints");
+    node.fail(std::to_string(values.size()) + " numbers",
+              "must be " + std::to_string(chain.size()) + ", one for each of the robot's joints");
   for (const double value : values) {
     if (value == 0.0) node.fail("0", "must not be zero: it is how many pulses a degree has");
   }
@@ -149,6 +151,9 @@ Robot read_robot(const YamlNode& node) {
   EquivalentChain equivalent = equivalent_chain(drawing);
   robot.chain = std::move(equivalent.chain);
   robot.chain.tool_m = metres(1.0) * node.at("tool_mm").vector3();
+  constexpr double kMostTool_m = 100.0;
+  if (robot.chain.tool_m.cwiseAbs().maxCoeff() > kMostTool_m)
+    node.at("tool_mm").fail("must lie within 100 m of the flange: it is in mm");
   if (const YamlNode* links = node.find("links")) robot.masses = read_masses(*links, robot.chain.joints.size());
   if (is_more_than_rows(drawing)) {
     for (const LinkMass& link : robot.masses) drawing.centres_m.push_back(link.centre_m);

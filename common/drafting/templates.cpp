@@ -33,7 +33,7 @@ namespace {
 
 /// What the given files are.
 struct GivenFiles {
-  std::optional<std::filesystem::path> robot, data_set;
+  std::optional<std::filesystem::path> robot, data_set, urdf;
   std::vector<std::filesystem::path> tables, programs;
 };
 
@@ -60,6 +60,11 @@ GivenFiles sorted(const std::vector<std::filesystem::path>& files) {
   for (const std::filesystem::path& path : files) {
     if (is_yaml(path)) {
       take_yaml(path, given);
+      continue;
+    }
+    const std::string ending = lower_case(path.extension().string());
+    if (ending == ".urdf" || ending == ".sdf") {
+      given.urdf = path;
       continue;
     }
     const Language* const language = recognize_language(read_file(path), path.string());
@@ -149,7 +154,8 @@ std::string template_text(TemplateKind kind, const std::vector<std::filesystem::
   const GivenFiles given = sorted(files);
   switch (kind) {
     case TemplateKind::robot:
-      return robot_template(given);
+      return given.urdf ? import_urdf({given.urdf->string(), {}, {}, (folder / "robot.yaml").string()}).text
+                        : robot_template(given);
     case TemplateKind::dataset:
       return data_set_template(given, folder);
     case TemplateKind::job:

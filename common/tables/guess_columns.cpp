@@ -149,7 +149,8 @@ GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::ve
   for (const std::string_view stem : {"torque", "tau", "jointtorque"}) {
     if (guess.torque.empty()) guess.torque = named.all_of(numbered_names(stem, 1, joints));
   }
-  guess.pose = named.first_of({"poseid", "pose", "pointid", "pointname", "point", "name", "pointno", "id", "nr", "no"});
+  guess.pose = named.first_of({"poseid", "pose", "pointid", "pointname", "point", "name", "pointno", "label",
+                               "pointlabel", "punktid", "punktname", "punktnr", "punkt", "id", "nr", "no"});
   guess.time = named.first_of({"time", "timestamp", "datetime", "t", "stamp", "zeit", "zeitstempel"});
   guess.set = named.find("set");
   guess.payload = named.first_of({"payload", "payloadkg"});
