@@ -62,8 +62,7 @@ double upright_if_exchanged(const Eigen::Matrix3d& base, int one, int other) {
   return std::abs(z.z());
 }
 
-constexpr double kSureDeviations = 5.0;  ///< by which the tool is known to be elsewhere
-constexpr double kTurnedTool_m = 3e-3;   ///< within which a tool stands where a turn of the last joint puts it
+constexpr double kTurnedTool_m = 3e-3;  ///< within which a tool stands where a turn of the last joint puts it
 
 double median_error_m(const TrialFit& fit, const Trial& trial) {
   std::vector<double> errors;
@@ -89,8 +88,7 @@ std::optional<double> turn_of_last_joint(const Chain& chain, const Eigen::Vector
 
 bool is_elsewhere(const TrialFit& fit, int target, const Eigen::Vector3d& nominal) {
   const Eigen::Vector3d change = fit.tools_m[static_cast<std::size_t>(target)] - nominal;
-  if (nominal.norm() == 0.0 || change.norm() < kOtherTool_m || !fit.has_links()) return false;
-  return change.dot(solve_pivoted(fit.tool_covariance(target), change)) >= kSureDeviations * kSureDeviations * 3.0;
+  return nominal.norm() > 0.0 && fit.has_links() && is_another_tool(change, fit.tool_covariance(target));
 }
 
 Finding other_tool(const Trial& trial, int target, const TrialFit& fit, const std::string& which) {
@@ -118,6 +116,12 @@ Finding other_tool(const Trial& trial, int target, const TrialFit& fit, const st
 }
 
 }  // namespace
+
+bool is_another_tool(const Eigen::Vector3d& change_m, const Eigen::Matrix3d& covariance_m2) {
+  constexpr double kSureDeviations = 5.0;
+  return change_m.norm() >= kOtherTool_m &&
+         change_m.dot(solve_pivoted(covariance_m2, change_m)) >= kSureDeviations * kSureDeviations * 3.0;
+}
 
 Explanation axes_explanation(const Eigen::Isometry3d& sensor_from_base, bool is_base) {
   constexpr double kUpright = 0.87;

@@ -49,6 +49,15 @@ class DataChecker {
     }
   }
 
+  std::optional<Eigen::Vector3d> tool_elsewhere() {
+    trial_ = calibration_rows();
+    if (whole_.tools_m.size() != 1 || trial_.rows.size() < kFewestRows) return std::nullopt;
+    place();
+    const Eigen::Vector3d &found_m = fit_.tools_m.front(), change_m = found_m - whole_.tools_m.front();
+    const bool fits = fit_.has_links() && fit_.median_m <= kNotableShare * trial_.reach_m();
+    return fits && is_another_tool(change_m, fit_.tool_covariance(0)) ? std::optional(found_m) : std::nullopt;
+  }
+
   DataCheck run() {
     for (Finding& finding : find_lacking_spread(data_)) add(std::move(finding));
     for (Finding& finding : find_shared_poses(data_)) add(std::move(finding));
@@ -182,6 +191,10 @@ class DataChecker {
 };
 
 }  // namespace
+
+std::optional<Eigen::Vector3d> tool_elsewhere(const DataSet& data) {
+  return DataChecker(data).tool_elsewhere();
+}
 
 DataCheck check_data(const DataSet& data) {
   return DataChecker(data).run();

@@ -2,6 +2,7 @@
 // what this arm did, and if not, what fits.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 
 #include "data/data_set.hpp"
@@ -17,6 +18,10 @@ namespace demecal::inline data_check {
 /// description, single poses, joints and points that lack spread. A function of the data. Data sets without positions
 /// are checked for spread alone.
 DataCheck check_data(const DataSet& data);
+
+/// Where the one tool point that was measured stands on the flange, m, by the same quick fit to the calibration poses:
+/// where that is surely farther from `tool_mm` than the tool's error may be. Nothing otherwise.
+std::optional<Eigen::Vector3d> tool_elsewhere(const DataSet& data);
 
 /// Adds the single poses (of all sets) that do not fit `robot`, a model of the data, to those that are named already.
 /// Where all poses fit `robot` in another frame only, as those of a later measurement do, it says that and no more.

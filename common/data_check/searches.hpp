@@ -65,6 +65,9 @@ std::optional<Finding> find_wrong_axes(const DataSet& data, CheckedRows& rows, T
 /// there.
 std::vector<Finding> find_other_base(const DataSet& data, const TrialFit& fit);
 
+/// Whether a change of a tool point is more than 10 mm and than 5 of its standard deviations.
+bool is_another_tool(const Eigen::Vector3d& change_m, const Eigen::Matrix3d& covariance_m2);
+
 /// Tools that the points put elsewhere than their description does, by more than 10 mm and than 5 standard deviations:
 /// a quarter turn of the last joint, or another tool. `target_of`: the number of each target's tool in `trial`.
 std::vector<Finding> find_other_tools(const Trial& trial, const std::map<std::string, int>& target_of,

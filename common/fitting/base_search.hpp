@@ -17,6 +17,8 @@ namespace demecal::inline fitting {
 
 /// Farther from where it is described than this another tool was measured; nearer, the described one has an error.
 inline constexpr double kOtherTool_m = 0.01;
+/// Nearer than this to a described or measured tool point, a stated one means that tool.
+inline constexpr double kSameTool_m = 3e-3;
 
 /// `start` with base and tools, where declared, placed by least squares over at most options.start_poses poses spread
 /// over `poses`: near enough for every parameter to be refined together. Every start is refined a little and the best

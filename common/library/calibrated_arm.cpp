@@ -63,10 +63,10 @@ const Language& recognized_language(const std::string& text, const std::string& 
 
 }  // namespace
 
-CommandModel to_command_model(const CalibratedModel& model, const std::optional<Eigen::Vector3d>& other_tool_m) {
+CommandModel to_command_model(const CalibratedModel& model, const std::optional<Eigen::Vector3d>& stated_tool_m) {
   const bool registration = model.declared.registration;
   const CorrectedRobot robot = registration ? without_base(model.robot, model.nominal.chain) : model.robot;
-  CommandModel commands = with_posterior(command_model(model.nominal, robot, stated_bounds(model), other_tool_m), robot,
+  CommandModel commands = with_posterior(command_model(model.nominal, robot, stated_bounds(model)), robot,
                                          model.posterior, model.measured, registration);
   commands.interval = model.interval;
   const bool corrected = !std::ranges::all_of(commands.robot.corrections, &JointCorrection::is_neutral);
@@ -80,7 +80,7 @@ CommandModel to_command_model(const CalibratedModel& model, const std::optional<
         "the model was measured without the sides that joints came from (no approach columns, or one side only): lost "
         "motion, if the arm has any, stands in it as gears, elasticity or joint corrections, and is corrected wrongly "
         "where a joint comes from the other side");
-  return commands;
+  return stated_tool_m ? with_stated_tool(std::move(commands), *stated_tool_m) : commands;
 }
 
 CalibratedArm::CalibratedArm(std::shared_ptr<const Implementation> implementation)

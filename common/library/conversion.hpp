@@ -44,9 +44,9 @@ ToolPose to_tool_pose(const Eigen::Isometry3d& pose);
 PoseSet to_pose_set(PoseUse use);
 PoseUse to_pose_use(PoseSet set);
 
-/// The model as commands are corrected by it, with all that it states of how sure it is. `other_tool_m`: see
-/// command_model().
+/// The model as commands are corrected by it, with all that it states of how sure it is. `stated_tool_m`: see
+/// with_stated_tool().
 CommandModel to_command_model(const CalibratedModel& model,
-                              const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
+                              const std::optional<Eigen::Vector3d>& stated_tool_m = std::nullopt);
 
 }  // namespace demecal::inline library

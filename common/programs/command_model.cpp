@@ -59,6 +59,16 @@ void take_tool(CommandModel& model, const Eigen::Vector3d& tool_m) {
   leave_out_effects(*model.posterior, before, is_of_tool);
 }
 
+bool is_mounted_turned(const Eigen::Isometry3d& tool) {
+  return vector_of(tool.linear()).norm() > kLargestToolTurn;
+}
+
+std::string point_text(const Eigen::Vector3d& point_m) {
+  std::string text;
+  for (const double coordinate : point_m) text += (text.empty() ? "" : " ") + fixed_text(millimetres(coordinate), 1);
+  return text;
+}
+
 /// Leaves out what is not the described tool in error.
 void check_tool(CommandModel& model) {
   const Eigen::Vector3d described_m = model.nominal.chain.tool_m;
@@ -66,18 +76,53 @@ void check_tool(CommandModel& model) {
   if (!model.robot.tools.contains("")) return take_tool(model, described_m);
   Eigen::Isometry3d& tool = model.robot.tools.at("");
   const double error_m = (tool.translation() - described_m).norm();
+  const bool turned = is_mounted_turned(tool);
   if (error_m > kOtherTool_m) {
-    model.notes.push_back("the model has its tool point " + std::to_string(std::lround(millimetres(error_m))) +
-                          " mm from where the robot's description has it, as if another tool was measured; nothing of "
-                          "the tool is corrected, and the described one is taken (--tool-mm names another)");
+    model.tool_note =
+        "the model has its tool point " + std::to_string(std::lround(millimetres(error_m))) +
+        " mm from where the robot's description has it, as if another tool was measured; nothing of "
+        "the tool is corrected where the program states none, and the described one is taken (--tool-mm " +
+        point_text(tool.translation()) + " says that it is the measured one)";
+    if (turned) tool.linear().setIdentity();
+    model.measured_tool = MeasuredTool{tool, model.robot.effects, {}};
     return take_tool(model, described_m);
   }
-  const double turn_rad = vector_of(tool.linear()).norm();
-  if (turn_rad > kLargestToolTurn) {
-    model.notes.push_back("the model has its tool turned by " + std::to_string(std::lround(degrees(turn_rad))) +
+  if (turned) {
+    model.notes.push_back("the model has its tool turned by " +
+                          std::to_string(std::lround(degrees(vector_of(tool.linear()).norm()))) +
                           " deg, as instruments' targets are mounted; that turn is not corrected");
     tool.linear().setIdentity();
   }
+}
+
+/// Whether a fit cannot tell this number from where the base stands: how the two share it out says nothing of the arm.
+/// What a slide carries may be shifted as a whole or the base be shifted the other way, so that behind leading
+/// prismatic joints the next length is the base's too.
+bool is_bound_to_base(const Chain& arm, int joint, LinkParameter which) {
+  const bool along = which == LinkParameter::theta || which == LinkParameter::d;
+  const bool modified = arm.convention == Convention::modified_dh;
+  if (joint == 0 && (along || modified)) return true;
+  int slides = 0;
+  while (slides < arm.size() && !is_revolute(arm, slides)) ++slides;
+  if (which == LinkParameter::d) return joint <= slides && slides > 0;
+  return which == LinkParameter::a && slides > 0 && (modified ? joint <= slides : joint < slides);
+}
+
+/// The numbers of a model whose tool is `tool`, or none of whose tools' numbers count.
+Posterior posterior_of(const CommandModel& model, const CorrectedRobot& identified, const Posterior& posterior,
+                       const Eigen::Isometry3d* tool, bool registration) {
+  const bool turned = tool != nullptr && !tool->linear().isIdentity(0.0);
+  Posterior kept = posterior.without([&](const ParameterId& id) {
+    using Kind = ParameterId::Kind;
+    if (id.kind == Kind::effect) return false;
+    if (id.kind == Kind::base_translation || id.kind == Kind::base_rotation) return true;
+    if (id.is_of_tool()) return tool == nullptr || (id.kind == Kind::tool_rotation && !turned);
+    return registration && is_bound_to_base(model.nominal.chain, id.index, id.link);
+  });
+  leave_out_effects(kept, identified.effects, [&](const Effect& effect) {
+    return is_of_instrument(effect) || (tool == nullptr && is_of_tool(effect));
+  });
+  return kept;
 }
 
 void narrow(std::optional<Interval>& range, const Interval& by) {
@@ -112,13 +157,12 @@ Eigen::Isometry3d believed_tool(const Eigen::Vector3d& described_m, const Eigen:
   return believed;
 }
 
-CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
-                           const std::optional<Eigen::Vector3d>& other_tool_m) {
+CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds) {
   CommandModel model{nominal, identified, std::move(bounds), {}};
   DEMECAL_CHECK(std::ssize(model.bounds) == nominal.chain.size(), model.bounds.size() << " bounds");
   model.robot.sensor_from_base.setIdentity();
   std::erase_if(model.robot.effects, is_of_instrument);
-  other_tool_m ? take_tool(model, *other_tool_m) : check_tool(model);
+  check_tool(model);
   return model;
 }
 
@@ -127,41 +171,50 @@ CommandModel with_posterior(CommandModel model, const CorrectedRobot& identified
                             bool registration) {
   model.measured = std::move(measured);
   if (!posterior) return model;
-  const bool turned = !model.robot.tool("").linear().isIdentity(0.0);
-  const bool whole_first = registration && model.nominal.chain.convention == Convention::modified_dh;
-  model.posterior = posterior->without([&](const ParameterId& id) {
-    using Kind = ParameterId::Kind;
-    if (id.kind == Kind::effect) return false;
-    if (id.kind == Kind::base_translation || id.kind == Kind::base_rotation) return true;
-    if (id.is_of_tool()) return !model.tool_identified || (id.kind == Kind::tool_rotation && !turned);
-    const bool along_first = id.link == LinkParameter::theta || id.link == LinkParameter::d;
-    return registration && id.index == 0 && (along_first || whole_first);
-  });
-  leave_out_effects(*model.posterior, identified.effects, [&](const Effect& effect) {
-    return is_of_instrument(effect) || (!model.tool_identified && is_of_tool(effect));
-  });
+  const Eigen::Isometry3d own = model.robot.tool("");
+  model.posterior = posterior_of(model, identified, *posterior, model.tool_identified ? &own : nullptr, registration);
+  if (model.measured_tool)
+    model.measured_tool->posterior =
+        posterior_of(model, identified, *posterior, &model.measured_tool->pose, registration);
   return model;
 }
 
 CommandModel with_stated_tool(CommandModel model, const Eigen::Vector3d& tool_m) {
-  constexpr double kSameTool = 3e-3;  ///< m
-  if (model.tool_identified && (tool_m - model.nominal.chain.tool_m).norm() <= kSameTool) {
-    model.nominal.chain.tool_m = tool_m;
-  } else {
-    take_tool(model, tool_m);
+  constexpr double kWorthSaying_m = 1e-3;
+  const Eigen::Vector3d described_m = model.nominal.chain.tool_m;
+  const auto is_at = [&tool_m](const Eigen::Vector3d& point_m) { return (tool_m - point_m).norm() <= kSameTool_m; };
+  model.tool_note.clear();
+  if (model.measured_tool && is_at(model.measured_tool->pose.translation())) {
+    MeasuredTool measured = std::move(*model.measured_tool);
+    model.measured_tool.reset();
+    model.robot.tools[""] = measured.pose;
+    model.robot.effects = std::move(measured.effects);
+    model.posterior = std::move(measured.posterior);
+    model.tool_identified = true;
   }
+  const Eigen::Vector3d measured_m = model.robot.tool("").translation();
+  if (!model.tool_identified || !(is_at(described_m) || is_at(measured_m))) {
+    take_tool(model, tool_m);
+    return model;
+  }
+  model.nominal.chain.tool_m = tool_m;
+  const double apart_m = (tool_m - measured_m).norm();
+  if (!is_at(described_m) && apart_m > kWorthSaying_m)
+    model.tool_note = "the tool at " + point_text(tool_m) + " mm is taken for the measured one, " +
+                      fixed_text(millimetres(apart_m), 2) +
+                      " mm from it, which is corrected as that tool's error; calibrate with its tool_mm in the robot's "
+                      "file to be sure";
   return model;
 }
 
 CorrectedRobot without_base(CorrectedRobot identified, const Chain& nominal) {
-  Joint& first = identified.chain.joints.front();
-  const Joint& described = nominal.joints.front();
-  first.theta_rad = described.theta_rad;
-  first.d_m = described.d_m;
-  if (nominal.convention == Convention::modified_dh) {
-    first.a_m = described.a_m;
-    first.alpha_rad = described.alpha_rad;
-    first.beta_rad = described.beta_rad;
+  for (int joint = 0; joint < nominal.size(); ++joint) {
+    for (int which = 0; which < kLinkParameters; ++which) {
+      const auto parameter = static_cast<LinkParameter>(which);
+      const auto at = static_cast<std::size_t>(joint);
+      if (is_bound_to_base(nominal, joint, parameter))
+        identified.chain.joints[at].parameter(parameter) = nominal.joints[at].parameter(parameter);
+    }
   }
   return identified;
 }

@@ -15,6 +15,13 @@
 
 namespace demecal::inline programs {
 
+/// The tool that was measured, where the described one is taken in its place.
+struct MeasuredTool {
+  Eigen::Isometry3d pose;              ///< on the flange
+  std::vector<Effect> effects;         ///< of the arm with it
+  std::optional<Posterior> posterior;  ///< of the numbers of the arm with it
+};
+
 /// What belongs to the correction of a command, and what does not:
 /// - Not the base's place in the instrument's frame, nor any effect of that frame (registration, drift, sensor_scale):
 ///   the robot that runs a program has no instrument. Poses are in the robot's own base frame. What a fit cannot tell
@@ -30,19 +37,19 @@ struct CommandModel {
   CorrectedRobot robot;        ///< predicts in the robot's own base frame
   std::vector<double> bounds;  ///< of each joint's correction (rad or m) over its range; infinite where none is stated
   std::vector<std::string> notes{};      ///< sentences about the model that a user should know
+  std::string tool_note{};               ///< one about its tool, where that tool is taken; empty: none
   std::optional<Posterior> posterior{};  ///< of the numbers of `robot`; nothing: all of the correction is believed
   std::optional<PredictionInterval> interval{};  ///< beside `posterior`, what predictions err by
   std::vector<Interval> measured{};              ///< of every joint, rad or m; none where the model does not say
   bool tool_identified = true;                   ///< the tool of `robot` is the described one as it was measured
+  std::optional<MeasuredTool> measured_tool{};   ///< otherwise, what was measured in its place
 
   /// Where the nominal robot has its tool: base frame, axes of the flange.
   Eigen::Isometry3d nominal_tool(const JointVector& joints) const;
 };
 
-/// `bounds` as above. `other_tool_m` is the tool point of a program whose tool is not the one that was measured: it is
-/// taken as it stands, and nothing of the tool is corrected.
-CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds,
-                           const std::optional<Eigen::Vector3d>& other_tool_m = std::nullopt);
+/// `bounds` as above.
+CommandModel command_model(const Robot& nominal, const CorrectedRobot& identified, std::vector<double> bounds);
 
 /// Where the described tool stands as the controller believes it, beside the identified one: what lies between them is
 /// corrected, which by the rules above is nothing of another tool and no turn of how an instrument's target is mounted.
@@ -54,13 +61,14 @@ CommandModel with_posterior(CommandModel model, const CorrectedRobot& identified
                             const std::optional<Posterior>& posterior, std::vector<Interval> measured,
                             bool registration);
 
-/// The model for a program whose tool point, as the program states it, is `tool_m` (on the flange): within 3 mm of the
-/// described one it is that tool, and its measured error counts; elsewhere it is another, taken as it stands.
+/// The model for a program whose tool point, as the program or its user states it, is `tool_m` (on the flange): within
+/// 3 mm of the described one, where that was measured, or of the measured one it is that tool, and its measured error
+/// counts; elsewhere it is another, taken as it stands.
 CommandModel with_stated_tool(CommandModel model, const Eigen::Vector3d& tool_m);
 
 /// `identified` with what no fit can tell from the base's place as `nominal` has it: theta and d of joint 1 (standard
-/// Denavit-Hartenberg), or all of joint 1 (modified). For models whose registration was fitted: how such a fit shares
-/// out base and first joint says nothing of the arm.
+/// Denavit-Hartenberg), or all of joint 1 (modified); behind leading prismatic joints also the next a and d. For models
+/// whose registration was fitted: how such a fit shares out base and first joint says nothing of the arm.
 CorrectedRobot without_base(CorrectedRobot identified, const Chain& nominal);
 
 /// The range that the model was calibrated in, of one joint (rad or m): where its correction and the effects that

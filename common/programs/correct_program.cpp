@@ -73,6 +73,14 @@ class Corrector {
     return corrected;
   }
 
+  /// What is to be said of the tools that targets state.
+  std::vector<std::string> notes_of_tools() const {
+    std::vector<std::string> notes;
+    for (const auto& [tool_m, model] : with_tools_)
+      if (!model->tool_note.empty()) notes.push_back(model->tool_note);
+    return notes;
+  }
+
  private:
   /// The program moves again to a target that was corrected so: leaves it where the joints that it is then reached with
   /// ask for another correction.
@@ -274,6 +282,7 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
   }
+  for (std::string& note : corrector.notes_of_tools()) result.warnings.push_back({kWholeProgram, "", std::move(note)});
   for (const auto& [sides, why] : {std::pair{&unknown, "is not told"}, {&differing, "depends on the way there"}}) {
     if (sides->targets.empty()) continue;
     result.warnings.push_back({kWholeProgram, "", unknown_side_sentence(result.program, *sides, why)});

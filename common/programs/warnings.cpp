@@ -189,6 +189,9 @@ std::vector<std::string> warnings_of(const CorrectedTarget& corrected, const Com
 std::vector<std::string> warnings_of(const Program& program, const CommandModel& model,
                                      const Circumstances& circumstances) {
   std::vector<std::string> sentences = model.notes;
+  const auto takes_models_tool = [](const Target& target) { return !target.frames.tool; };
+  if (!model.tool_note.empty() && std::ranges::any_of(program.targets, takes_models_tool))
+    sentences.push_back(model.tool_note);
   if (model.posterior && model.interval && model.interval->fitted)
     sentences.emplace_back(
         "the radii that hold 95 % (± ... mm) come from the poses to which the model was fitted, since it had no "

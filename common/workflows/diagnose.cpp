@@ -24,6 +24,7 @@
 #include "diagnosis/loop.hpp"
 #include "diagnosis/outcome.hpp"
 #include "errors/input_error.hpp"
+#include "fitting/base_search.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
 #include "kinematics/chain.hpp"
@@ -86,11 +87,10 @@ void require_alike_arm(const CalibratedModel& model, const DataSet& data) {
 }
 
 void require_alike_tool(const CalibratedModel& model, const DataSet& data) {
-  constexpr double kSame_m = 3e-3;
   const Eigen::Vector3d& stated_m = data.robot.chain.tool_m;
   const Eigen::Vector3d identified_m = model.robot.tool("").translation();
-  if (stated_m.isZero(0.0) || (stated_m - model.nominal.chain.tool_m).norm() <= kSame_m ||
-      (stated_m - identified_m).norm() <= kSame_m) {
+  if (stated_m.isZero(0.0) || (stated_m - model.nominal.chain.tool_m).norm() <= kSameTool_m ||
+      (stated_m - identified_m).norm() <= kSameTool_m) {
     return;
   }
   const auto point = [](const Eigen::Vector3d& tool_m) {

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -8,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "coordinator/commands.hpp"
@@ -20,6 +22,8 @@
 #include "drafting/templates.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
+#include "languages/languages.hpp"
+#include "parsed_programs/language.hpp"
 #include "report/evaluation.hpp"
 #include "tables/layout.hpp"
 #include "terminal/report_text.hpp"
@@ -79,7 +83,7 @@ ToldLayout told_layout(const NewRequest& request) {
 /// Of the drafts whose rows fit together the first that the check of the data finds least wrong with, written; throws
 /// what is wrong with the likeliest where none does.
 DataSetDraft write_fitting_draft(const std::filesystem::path& file, const std::vector<DataSetDraft>& drafts) {
-  std::optional<InputError> first_fault;
+  std::optional<InputError> likeliest;
   const DataSetDraft* best = nullptr;
   DataVerdict least = DataVerdict::contradiction;
   for (const DataSetDraft& draft : drafts) {
@@ -92,21 +96,65 @@ DataSetDraft write_fitting_draft(const std::filesystem::path& file, const std::v
       least = verdict;
       if (verdict == DataVerdict::plausible) break;
     } catch (const InputError& fault) {
-      if (!first_fault) first_fault = fault;
+      // Where clocks that agree do not fit, it is what hinders them to be brought together that matters.
+      if (!likeliest || draft.text.find("offset_s: auto") != std::string::npos) likeliest = fault;
     }
   }
-  if (best == nullptr) throw InputError(*first_fault);
+  if (best == nullptr) throw InputError(*likeliest);
   write_file(file, best->text);
   return *best;
 }
 
+/// The robot file's text as it has to be in another folder: it names its URDF from where it stands.
+std::string moved_robot_text(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  std::string text = read_file(file.string());
+  const YamlNode root = parse_yaml(text, file.string());
+  const YamlNode* const urdf = root.find("urdf");
+  const YamlNode* const named = urdf == nullptr ? nullptr : urdf->find("file");
+  if (named == nullptr) return text;
+  const std::string name = named->text();
+  const std::size_t place = text.find(name, text.find("urdf:"));
+  const std::filesystem::path whole = std::filesystem::absolute(file.parent_path() / name).lexically_normal(),
+                              beside = std::filesystem::absolute(folder).lexically_normal(),
+                              moved = whole.lexically_relative(beside);
+  if (place != std::string::npos) text.replace(place, name.size(), (moved.empty() ? whole : moved).string());
+  return text;
+}
+
 /// The arm's file as it will stand in the new folder, and what was assumed of it.
 ImportedRobot robot_file(const NewRequest& request) {
-  if (request.urdf.empty()) return {.text = read_file(request.robot), .notes = {}};
+  if (request.urdf.empty()) return {.text = moved_robot_text(request.robot, request.folder), .notes = {}};
   ImportRequest urdf{request.urdf, {}, {}, request.folder + "/robot.yaml"};
   if (!request.base.empty()) urdf.base = request.base;
   if (!request.tip.empty()) urdf.tip = request.tip;
   return import_urdf(urdf);
+}
+
+void require_no_programs(const std::vector<std::filesystem::path>& files) {
+  for (const std::filesystem::path& file : files) {
+    const Language* const language = recognize_language(read_file(file.string()), file.string());
+    if (language != nullptr && language->name != "csv")
+      throw InputError({file.string(), 0}, "",
+                       "is a robot program: `demecal prepare` puts its targets beside an instrument's readings "
+                       "(`demecal template preparation --for` this file and the readings begins its file)");
+  }
+}
+
+/// Writes the tool point into an imported arm's file, which has none of its own, where the poses tell where it is;
+/// returns what is to be said of it.
+std::vector<std::string> write_found_tool(const NewRequest& request, std::string robot_text) {
+  constexpr std::string_view kNone = "tool_mm: [0, 0, 0]";
+  const std::size_t place = request.urdf.empty() ? std::string::npos : robot_text.find(kNone);
+  if (place == std::string::npos) return {};
+  const std::optional<Eigen::Vector3d> tool_m = tool_elsewhere(load_data_set(request.folder + "/dataset.yaml"));
+  if (!tool_m) return {};
+  const std::string point =
+      fmt::format("[{:.1f}, {:.1f}, {:.1f}]", 1e3 * tool_m->x(), 1e3 * tool_m->y(), 1e3 * tool_m->z());
+  robot_text.replace(place, kNone.size(), "tool_mm: " + point);
+  write_file(request.folder + "/robot.yaml", robot_text);
+  return {"tool_mm is " + point +
+          ", where these poses have the measured point on the flange; programs whose tool is within 3 mm of it are "
+          "corrected for that tool's error too"};
 }
 
 ExitCode run_new(const NewRequest& request) {
@@ -116,6 +164,7 @@ ExitCode run_new(const NewRequest& request) {
   const auto joints = static_cast<std::size_t>(robot.chain.size());
   const ToldLayout told = told_layout(request);
   const std::vector<std::filesystem::path> files(request.poses.begin(), request.poses.end());
+  require_no_programs(files);
   const std::vector<GivenTable> tables = read_given_tables(files, joints, told, joint_names(robot));
   const std::vector<DataSetDraft> drafts = draft_data_sets(tables, request.folder, "robot.yaml", joints, told);
   make_writable(request.folder, kNewFiles, request.force);
@@ -123,12 +172,14 @@ ExitCode run_new(const NewRequest& request) {
   write_file(request.folder + "/robot.yaml", arm.text);
   write_file(request.folder + "/job.yaml", first_job_text("dataset.yaml"));
   const DataSetDraft draft = write_fitting_draft(request.folder + "/dataset.yaml", drafts);
+  std::vector<std::string> notes = arm.notes;
+  for (std::string& note : write_found_tool(request, arm.text)) notes.push_back(std::move(note));
   const CheckedData checked = load_checked(request.folder + "/dataset.yaml");
   fmt::print("{}: {} poses of {}; {} written\n", request.folder, checked.data.poses.size(), robot.name,
              fmt::join(kNewFiles, ", "));
   fmt::print("Assumed; check it in dataset.yaml:\n");
   for (const std::string& sentence : draft.assumed) fmt::print("  {}\n", sentence);
-  for (const std::string& note : arm.notes) fmt::print("Check in robot.yaml: {}\n", note);
+  for (const std::string& note : notes) fmt::print("Check in robot.yaml: {}\n", note);
   fmt::print("Check in robot.yaml: dimensions, signs and offsets of joints, tool_mm.\n");
   if (refuses(checked, false, ShownFindings::all)) return ExitCode::contradiction;
   fmt::print("{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));

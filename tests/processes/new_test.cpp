@@ -22,6 +22,7 @@ namespace demecal {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string shipped_robot(const std::string& name) {
   return std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/" + name + ".yaml";
@@ -156,6 +157,47 @@ TEST_P(FirstHourWithUrdf, TakesTheUrdfAsItIsAndALogWithItsJointsNames) {
   const Ended fitted = run("demecal", {"diagnose", job.path("cell/dataset.yaml"), "--declare",
                                        "registration,joint_offset", "--max-effects", "0", "--out", job.path("result")});
   ASSERT_EQ(fitted.code, 0) << fitted.err;
+}
+
+/// The joint angles of a KRL program's first target, rad.
+JointVector first_krl_joints(const std::string& program) {
+  JointVector joints(6);
+  for (Eigen::Index j = 0; j < 6; ++j) {
+    const std::string axis = "A" + std::to_string(j + 1) + " ";
+    joints[j] = radians(std::stod(program.substr(program.find(axis, program.find("PTP")) + axis.size())));
+  }
+  return joints;
+}
+
+TEST(New, FindsTheToolSoThatProgramsWithItAreCorrectedAsTheyStand) {
+  const SmallJob job;
+  RandomStream random{315};
+  const std::string urdf = std::string(DEMECAL_SOURCE_DIR) + "/../shared/data/urdf/kr6r900_2.urdf";
+  ASSERT_EQ(run("demecal", {"robot", "import", urdf, "--out", job.path("arm.yaml")}).code, 0);
+  const Robot robot = load_robot(job.path("arm.yaml"));
+  write_measurement_of_unknown_tool(job, robot, random);
+  const Ended made = run(
+      "demecal", {"new", job.path("cell"), "--urdf", urdf, "--poses", job.path("tracker.csv"), job.path("joints.csv")});
+  ASSERT_EQ(made.code, 0) << made.err << made.out;
+  EXPECT_THAT(made.out, HasSubstr("where these poses have the measured point"));
+  const Eigen::Vector3d tool_m(0.11, -0.07, 0.19);
+  EXPECT_LT((load_robot(job.path("cell/robot.yaml")).chain.tool_m - tool_m).norm(), 3e-3);
+  const Ended fitted =
+      run("demecal", {"diagnose", job.path("cell/dataset.yaml"), "--declare", "registration,tool,joint_offset",
+                      "--max-effects", "0", "--out", job.path("result")});
+  ASSERT_EQ(fitted.code, 0) << fitted.err;
+  std::ofstream(job.path("p.src")) << "DEF p()\n$BASE=$NULLFRAME\n$TOOL={X 110,Y -70,Z 190,A 0,B 0,C 0}\n"
+                                      "PTP {A1 10,A2 -60,A3 70,A4 20,A5 50,A6 5}\nEND\n";
+  const Ended applied =
+      run("demecal", {"apply", job.path("result/model.yaml"), job.path("p.src"), "--out", job.path("q.src")});
+  ASSERT_EQ(applied.code, 0) << applied.err;
+  EXPECT_THAT(applied.err, Not(HasSubstr("not determined")));
+  const auto point = [&](const JointVector& joints) { return forward(robot.chain, joints) * tool_m; };
+  const JointVector programmed = first_krl_joints(job.text("p.src"));
+  JointVector uncorrected = programmed, corrected = first_krl_joints(job.text("q.src"));
+  for (JointVector* real : {&uncorrected, &corrected}) (*real)[1] += 1e-3;
+  EXPECT_GT((point(uncorrected) - point(programmed)).norm(), 3e-4);
+  EXPECT_LT((point(corrected) - point(programmed)).norm(), 5e-5);
 }
 
 INSTANTIATE_TEST_SUITE_P(OfArms, FirstHourWithUrdf, ::testing::Values("ur5", "irb120_3_58", "kr6r900_2"));

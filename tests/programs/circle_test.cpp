@@ -183,7 +183,8 @@ TEST(CorrectedProgram, OfAnotherToolIsNotCorrectedForTheToolMeasured) {
   const Program program = read_program(WrittenIn::urscript, text, "p", nominal.chain);
   const Eigen::Vector3d other{0.0, 0.0, 0.3};
   EXPECT_NE(correct_program(text, program, command_model(nominal, identified, none), {}).text, text);
-  EXPECT_EQ(correct_program(text, program, command_model(nominal, identified, none, other), {}).text, text);
+  EXPECT_EQ(correct_program(text, program, with_stated_tool(command_model(nominal, identified, none), other), {}).text,
+            text);
 }
 
 }  // namespace

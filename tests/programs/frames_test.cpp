@@ -200,7 +200,7 @@ TEST(GivenTool, LeavesTheMeasuredToolToTargetsThatStateTheirs) {
   RandomStream stream{7513};
   const Robot nominal = elbow_arm(stream);
   const CommandModel own = erring_model(stream, nominal);
-  const CommandModel model = command_model(nominal, own.robot, own.bounds, Eigen::Vector3d(0.0, 0.0, 0.1));
+  const CommandModel model = with_stated_tool(own, Eigen::Vector3d(0.0, 0.0, 0.1));
   const auto text_of = [&](const std::string& text, WrittenIn language, const Circumstances& given,
                            const CommandModel& used) {
     return correct_program(text, read_program(language, text, "p", nominal.chain), used, given).text;
