@@ -69,6 +69,8 @@ class Corrector {
       corrected.unknown_side_m = unknown_side_m(model_for(target), corrected);
       if (corrected.error95_m) *corrected.error95_m += 0.5 * corrected.unknown_side_m;
     }
+    if (corrected.error95_m && !target.payload_kg && !circumstances_.payload_kg)
+      *corrected.error95_m += unknown_payload_m(model_for(target), corrected);
     corrected.texts = cell_texts(target, corrected);
     return corrected;
   }

@@ -113,10 +113,36 @@ std::string joint_label(int joint) {
   return "joint " + std::to_string(joint + 1);
 }
 
+namespace {
+
+/// By how much the model's part of an error is taken to be larger with more in the hand than was measured, as
+/// extrapolation() has it for joints: what the arm gives by there was not seen.
+double beyond_payload(const CommandModel& model, double payload_kg) {
+  constexpr double kGrowth = 2.0, kLeastRange_kg = 1.0;
+  const std::optional<Interval>& carried = model.robot.payloads_kg;
+  if (!carried || payload_kg <= carried->upper) return 0.0;
+  return kGrowth * (payload_kg - carried->upper) / std::max(carried->upper - carried->lower, kLeastRange_kg);
+}
+
+}  // namespace
+
 std::optional<double> error95_m(const CommandModel& model, const Stop& stop) {
   if (!model.posterior || !model.interval) return std::nullopt;
-  return real_radius95_m(*model.interval, *model.posterior, model.robot, stop,
-                         extrapolation(model.nominal.chain, model.measured, stop.joints));
+  return real_radius95_m(
+      *model.interval, *model.posterior, model.robot, stop,
+      extrapolation(model.nominal.chain, model.measured, stop.joints) + beyond_payload(model, stop.payload_kg));
+}
+
+double unknown_payload_m(const CommandModel& model, const CorrectedTarget& corrected) {
+  if (!model.robot.payloads_kg) return 0.0;
+  Stop stop = corrected.stop.with_joints(corrected.command);
+  const Eigen::Vector3d taken_m = model.robot.predict(stop, "").translation();
+  double most_m = 0.0;
+  for (const double payload_kg : {model.robot.payloads_kg->lower, model.robot.payloads_kg->upper}) {
+    stop.payload_kg = payload_kg;
+    most_m = std::max(most_m, (model.robot.predict(stop, "").translation() - taken_m).norm());
+  }
+  return most_m;
 }
 
 CorrectedTarget correct_target(const Target& target, const CommandModel& model, const Stop& stop) {

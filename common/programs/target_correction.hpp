@@ -60,6 +60,10 @@ struct CorrectedTarget {
 /// outside what was measured. Nothing where the model does not state it.
 std::optional<double> error95_m(const CommandModel& model, const Stop& stop);
 
+/// How far the real tool point may stand from where it is predicted, m, where nobody states the payload: with any that
+/// the arm was measured with.
+double unknown_payload_m(const CommandModel& model, const CorrectedTarget& corrected);
+
 /// Sends the target, whose nominal joints and circumstances are `stop`, to where model(command) = nominal: as far as
 /// the model's posterior determines the correction (see determined_part()), and without large joint motions near
 /// singular joints (see nearby_command()). A direction of position that is left is a remark, one of orientation a note.

@@ -186,6 +186,22 @@ std::vector<std::string> warnings_of(const CorrectedTarget& corrected, const Com
   return sentences;
 }
 
+namespace {
+
+/// Where targets carry more than the arm was measured with.
+void check_payloads(const Program& program, const CommandModel& model, const Circumstances& given,
+                    std::vector<std::string>& sentences) {
+  double most_kg = given.payload_kg.value_or(0.0);
+  for (const Target& target : program.targets) most_kg = std::max(most_kg, target.payload_kg.value_or(0.0));
+  if (!model.robot.payloads_kg || most_kg <= model.robot.payloads_kg->upper) return;
+  sentences.push_back("the payload of " + number_text(most_kg) + " kg is more than the " +
+                      number_text(model.robot.payloads_kg->upper) +
+                      " kg that the arm was measured with at most: what it gives by there was not seen, and the radii "
+                      "(± ... mm) are widened by judgement; measure some poses with that payload");
+}
+
+}  // namespace
+
 std::vector<std::string> warnings_of(const Program& program, const CommandModel& model,
                                      const Circumstances& circumstances) {
   std::vector<std::string> sentences = model.notes;
@@ -203,6 +219,7 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
   }
   check_circumstances(program, model, circumstances, sentences);
+  check_payloads(program, model, circumstances, sentences);
   for (const Effect& effect : model.robot.effects)
     if (const std::string_view reversal = law_of(effect).reversal(effect); !reversal.empty())
       sentences.push_back(names_of({&effect}) + ": " + std::string(reversal));

@@ -71,5 +71,56 @@ TEST(PayloadStatements, ThatStandAloneAreWhatTheUserTells) {
               AllOf(HasSubstr("the program sets in line 2;"), HasSubstr("--payload-kg tells it")));
 }
 
+/// Compliant in joint 2, measured with 0 to 5 kg, and sure of itself.
+CommandModel weighed_model() {
+  RandomStream stream{7602};
+  Robot nominal = elbow_arm(stream);
+  CorrectedRobot identified = random_robot(stream, nominal.chain, 0.0, 0.0);
+  identified.corrections.assign(6, {});
+  identified.effects = {
+      {.kind = "compliance", .joint = 1, .settings = {}, .form = "masses", .formula = {}, .values = {1e-6}}};
+  identified.payloads_kg = Interval{0.0, 5.0};
+  CommandModel model = unbounded_model(nominal, identified);
+  model.posterior = Posterior{{{.kind = ParameterId::Kind::link, .index = 1, .link = LinkParameter::theta}},
+                              {},
+                              Eigen::MatrixXd::Constant(1, 1, 1e-5)};
+  model.interval = PredictionInterval{.quantile = 1.6};
+  return model;
+}
+
+CorrectedProgram carried_by(const CommandModel& model, std::optional<double> payload_kg) {
+  JointVector joints(6);
+  joints << 0.3, -0.4, 0.6, 0.2, 0.9, -0.4;
+  const std::string text = joints_line(WrittenIn::urscript, joints, 1, 9);
+  return correct_program(text, read_program(WrittenIn::urscript, text, "p.script", model.nominal.chain), model,
+                         {.payload_kg = payload_kg});
+}
+
+TEST(UnstatedPayload, IsInTheRadiusAsFarAsTheArmWasMeasuredWith) {
+  const CommandModel model = weighed_model();
+  const CorrectedTarget untold = carried_by(model, {}).targets[0], empty = carried_by(model, 0.0).targets[0];
+  ASSERT_EQ(untold.outcome, CorrectionOutcome::corrected);
+  EXPECT_EQ(untold.command, empty.command);
+  Stop carrying = empty.stop.with_joints(empty.command);
+  const Eigen::Vector3d bare_m = model.robot.predict(carrying, "").translation();
+  carrying.payload_kg = 5.0;
+  const double given_by_m = (model.robot.predict(carrying, "").translation() - bare_m).norm();
+  EXPECT_GT(given_by_m, 1e-5);
+  EXPECT_NEAR(*untold.error95_m - *empty.error95_m, given_by_m, 1e-9);
+}
+
+TEST(Payload, BeyondWhatWasMeasuredWidensTheRadiusAndIsSaid) {
+  const CommandModel model = weighed_model();
+  const CorrectedProgram within = carried_by(model, 5.0), beyond = carried_by(model, 20.0);
+  EXPECT_GT(*beyond.targets[0].error95_m, 5.0 * *within.targets[0].error95_m);
+  const auto says = [](const CorrectedProgram& program) {
+    return std::ranges::any_of(program.warnings, [](const Remark& one) {
+      return one.sentence.starts_with("the payload of 20 kg is more than the 5 kg that the arm was measured with");
+    });
+  };
+  EXPECT_FALSE(says(within));
+  EXPECT_TRUE(says(beyond));
+}
+
 }  // namespace
 }  // namespace demecal
