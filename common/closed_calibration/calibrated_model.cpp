@@ -157,6 +157,26 @@ std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& ca
   return ranges;
 }
 
+std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Calibration& calibration) {
+  constexpr double kLeast_rad = 0.35, kLeast_m = 0.1, kChance = 0.01;
+  const std::vector<std::size_t> poses = fitted_poses(data, calibration);
+  std::map<int, std::vector<Interval>> gaps;
+  for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
+    const double least = is_revolute(data.robot.chain, joint) ? kLeast_rad : kLeast_m;
+    std::vector<double> values;
+    for (const std::size_t pose : poses) values.push_back(data.poses[pose].joints[joint]);
+    std::ranges::sort(values);
+    double different = 1.0;  // values that differ by a twentieth of what a gap is at least
+    for (std::size_t i = 1; i < values.size(); ++i) different += values[i] - values[i - 1] > 0.05 * least ? 1.0 : 0.0;
+    for (std::size_t i = 1; i < values.size(); ++i) {
+      const double share = (values[i] - values[i - 1]) / (values.back() - values.front());
+      if (values[i] - values[i - 1] >= least && different * std::pow(1.0 - share, different - 1.0) < kChance)
+        gaps[joint].push_back({values[i - 1], values[i]});
+    }
+  }
+  return gaps;
+}
+
 PredictionInterval interval_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {
   if (calibration.unseen) return calibration.unseen->interval;
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,6 +59,7 @@ struct CalibratedModel {
   std::optional<Posterior> posterior{};          ///< nothing in models of old versions
   std::optional<PredictionInterval> interval{};  ///< nothing in models of old versions
   std::vector<Interval> measured{};  ///< of every joint, where it stood in the fitted poses; none in old models
+  std::map<int, std::vector<Interval>> measured_gaps{};  ///< of joints, from 0: where inside that none of them stood
   /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
   KnownFunctions functions{};
   CertificateFields certificate{};  ///< what the job states for certificates
@@ -92,6 +94,10 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
 
 /// The lowest and highest value (rad or m) of every joint over the same poses.
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration);
+
+/// Inside these the stretches (rad or m) of joints, from 0, in which none of the poses stands, of 20 deg (100 mm) or
+/// more, where as many different values drawn at random would leave one so wide in fewer than one of a hundred cases.
+std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Calibration& calibration);
 
 /// Whether most poses were measured near the one before them, as along a path: their median step, of the joint that
 /// moves most, is less than a quarter of what the poses cover (random ones go over two thirds of it). Repeats are no

@@ -120,6 +120,12 @@ std::string posterior_text(const CalibratedModel& model) {
     text << "  - {joint: " << joint + 1 << ", " << range_text(model.nominal.chain.joints[joint], model.measured[joint])
          << "}\n";
   }
+  if (!model.measured_gaps.empty()) text << "measured_gaps:\n";
+  for (const auto& [joint, gaps] : model.measured_gaps) {
+    for (const Interval& gap : gaps)
+      text << "  - {joint: " << joint + 1 << ", "
+           << range_text(model.nominal.chain.joints[static_cast<std::size_t>(joint)], gap) << "}\n";
+  }
   if (!model.posterior) return text.str();
   const Posterior& posterior = *model.posterior;
   std::vector<std::string> names, terms;
@@ -146,6 +152,14 @@ void read_posterior(const YamlNode& file, CalibratedModel& model) {
       const auto joint = static_cast<std::size_t>(joint_at(entry, "joint", chain));
       if (joint != model.measured.size()) entry.fail("", "must name the joints in order");
       model.measured.push_back(read_range(entry, chain.joints[joint]));
+    }
+  }
+  if (const YamlNode* gaps = file.find("measured_gaps")) {
+    const Chain& chain = model.nominal.chain;
+    for (const YamlNode& entry : gaps->list()) {
+      entry.with_keys({"joint", "range_rad", "range_m"});
+      const int joint = joint_at(entry, "joint", chain);
+      model.measured_gaps[joint].push_back(read_range(entry, chain.joints[static_cast<std::size_t>(joint)]));
     }
   }
   const YamlNode* node = file.find("posterior");

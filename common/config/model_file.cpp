@@ -252,6 +252,7 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
                   "shared_functions",
                   "corrections",
                   "measured_ranges",
+                  "measured_gaps",
                   "measured_payload_kg",
                   "posterior",
                   "fleet",

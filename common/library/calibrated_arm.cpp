@@ -69,6 +69,7 @@ CommandModel to_command_model(const CalibratedModel& model, const std::optional<
   CommandModel commands = with_posterior(command_model(model.nominal, robot, stated_bounds(model)), robot,
                                          model.posterior, model.measured, registration);
   commands.interval = model.interval;
+  commands.gaps = model.measured_gaps;
   const bool corrected = !std::ranges::all_of(commands.robot.corrections, &JointCorrection::is_neutral);
   if (!model.data_findings.empty() && contradicts(model.data_findings.front()))
     commands.notes.insert(commands.notes.begin(),

@@ -144,6 +144,11 @@ double beyond(const Interval& range, double value, bool revolute) {
   return least;
 }
 
+/// Less beyond what was measured (rad or m) is not worth saying.
+double margin_of(bool revolute) {
+  return revolute ? 0.035 : 0.02;
+}
+
 }  // namespace
 
 Eigen::Isometry3d CommandModel::nominal_tool(const JointVector& joints) const {
@@ -231,12 +236,19 @@ std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint)
 }
 
 std::optional<Interval> outside_measured(const CommandModel& model, int joint, double value) {
-  constexpr double kMargin_rad = 0.035, kMargin_m = 0.02;
   if (model.measured.empty()) return std::nullopt;
   const Interval& range = model.measured[static_cast<std::size_t>(joint)];
   const bool revolute = is_revolute(model.nominal.chain, joint);
-  const double margin = revolute ? kMargin_rad : kMargin_m;
-  return beyond(range, value, revolute) > margin ? std::optional(range) : std::nullopt;
+  return beyond(range, value, revolute) > margin_of(revolute) ? std::optional(range) : std::nullopt;
+}
+
+std::optional<Interval> inside_gap(const CommandModel& model, int joint, double value) {
+  const auto gaps = model.gaps.find(joint);
+  if (gaps == model.gaps.end()) return std::nullopt;
+  const double margin = margin_of(is_revolute(model.nominal.chain, joint));
+  for (const Interval& gap : gaps->second)
+    if (value > gap.lower + margin && value < gap.upper - margin) return gap;
+  return std::nullopt;
 }
 
 double distance_outside_calibrated(const CorrectedRobot& robot, int joint, double value) {

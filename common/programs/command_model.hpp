@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -41,6 +42,7 @@ struct CommandModel {
   std::optional<Posterior> posterior{};  ///< of the numbers of `robot`; nothing: all of the correction is believed
   std::optional<PredictionInterval> interval{};  ///< beside `posterior`, what predictions err by
   std::vector<Interval> measured{};              ///< of every joint, rad or m; none where the model does not say
+  std::map<int, std::vector<Interval>> gaps{};   ///< inside that, where joints, from 0, stood nowhere
   bool tool_identified = true;                   ///< the tool of `robot` is the described one as it was measured
   std::optional<MeasuredTool> measured_tool{};   ///< otherwise, what was measured in its place
 
@@ -77,6 +79,9 @@ std::optional<Interval> calibrated_range(const CorrectedRobot& robot, int joint)
 
 /// Nothing, or the range that the joint stands outside of by more than 2 deg (20 mm), whole turns aside.
 std::optional<Interval> outside_measured(const CommandModel& model, int joint, double value);
+
+/// Nothing, or the stretch without any measurement that the joint stands inside of by more than 2 deg (20 mm).
+std::optional<Interval> inside_gap(const CommandModel& model, int joint, double value);
 
 /// How far the joint stands outside that range, whole turns of revolute joints aside; 0 within it.
 double distance_outside_calibrated(const CorrectedRobot& robot, int joint, double value);

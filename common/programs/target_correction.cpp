@@ -124,13 +124,27 @@ double beyond_payload(const CommandModel& model, double payload_kg) {
   return kGrowth * (payload_kg - carried->upper) / std::max(carried->upper - carried->lower, kLeastRange_kg);
 }
 
+/// The same of joints inside of stretches in which nothing was measured, by their way from what was.
+double inside_gaps(const CommandModel& model, const JointVector& joints) {
+  constexpr double kGrowth = 2.0, kLeastRange = 0.2;
+  double widened = 0.0;
+  for (int joint = 0; joint < joints.size() && !model.measured.empty(); ++joint) {
+    const std::optional<Interval> gap = inside_gap(model, joint, joints[joint]);
+    if (!gap) continue;
+    const Interval& range = model.measured[static_cast<std::size_t>(joint)];
+    widened += kGrowth * std::min(joints[joint] - gap->lower, gap->upper - joints[joint]) /
+               std::max(range.upper - range.lower, kLeastRange);
+  }
+  return widened;
+}
+
 }  // namespace
 
 std::optional<double> error95_m(const CommandModel& model, const Stop& stop) {
   if (!model.posterior || !model.interval) return std::nullopt;
-  return real_radius95_m(
-      *model.interval, *model.posterior, model.robot, stop,
-      extrapolation(model.nominal.chain, model.measured, stop.joints) + beyond_payload(model, stop.payload_kg));
+  return real_radius95_m(*model.interval, *model.posterior, model.robot, stop,
+                         extrapolation(model.nominal.chain, model.measured, stop.joints) +
+                             beyond_payload(model, stop.payload_kg) + inside_gaps(model, stop.joints));
 }
 
 double unknown_payload_m(const CommandModel& model, const CorrectedTarget& corrected) {

@@ -51,6 +51,10 @@ void check_range(int joint, const Joint& link, const CorrectedTarget& corrected,
   const bool corrected_range = distance_outside_calibrated(model.robot, joint, value) > kLimitRounding;
   const std::optional<Interval> range =
       corrected_range ? calibrated_range(model.robot, joint) : outside_measured(model, joint, value);
+  if (const std::optional<Interval> gap = inside_gap(model, joint, value))
+    sentences.push_back(joint_label(joint) + " is sent to " + joint_amount(link, value) +
+                        ", inside a stretch without any measured pose, " + joint_amount(link, gap->lower) + " .. " +
+                        joint_amount(link, gap->upper) + ": what the joint does there was not seen");
   if (!range) return;
   sentences.push_back(joint_label(joint) + " is sent to " + joint_amount(link, value) +
                       ", outside the calibrated range " + joint_amount(link, range->lower) + " .. " +

@@ -226,6 +226,7 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
           .posterior = posterior_of(data, job.declared, calibration),
           .interval = interval_of(data, job.declared, calibration),
           .measured = measured_ranges(data, calibration),
+          .measured_gaps = measured_gaps(data, calibration),
           .certificate = job.certificate,
           .stations = as_files_have_it(stations_as_found(calibration.robot, data)),
           .data_name = data.name,

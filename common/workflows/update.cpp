@@ -115,6 +115,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
                   .posterior = update.fitted.posterior,
                   .interval = interval,
                   .measured = measured_ranges(data, result.calibration),
+                  .measured_gaps = measured_gaps(data, result.calibration),
                   .stations = stations_as_found(update.robot, data),
                   .data_name = data.name,
                   .data_sha256 = data.sha256,

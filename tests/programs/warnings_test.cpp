@@ -56,6 +56,25 @@ TEST(Concerns, NameTheJointBeyondTheCalibratedRange) {
   EXPECT_EQ(warning_text(corrected, corrected.warnings[0]).substr(0, 11), "p.script:1:");
 }
 
+TEST(Concerns, NameTheJointInsideAStretchWithoutMeasurements) {
+  CommandModel model = wave_model(2e-3);
+  model.measured.assign(6, Interval{-1.5, 1.5});
+  model.gaps = {{1, {{0.3, 0.8}}}};
+  model.posterior = Posterior{{{.kind = ParameterId::Kind::link, .index = 1, .link = LinkParameter::theta}},
+                              {},
+                              Eigen::MatrixXd::Constant(1, 1, 1e-5)};
+  model.interval = PredictionInterval{.quantile = 1.6};
+  const CorrectedProgram inside = corrected_joints(model, joints_with(0.55, 0.2));
+  ASSERT_EQ(inside.warnings.size(), 1u);
+  EXPECT_THAT(inside.warnings[0].sentence,
+              HasSubstr("joint 2 is sent to 31.5127 deg, inside a stretch without any measured pose, 17.1887 deg .. "));
+  const double widened_m = *inside.targets[0].error95_m;
+  model.gaps.clear();
+  const CorrectedProgram known = corrected_joints(model, joints_with(0.55, 0.2));
+  EXPECT_TRUE(known.warnings.empty());
+  EXPECT_NEAR(widened_m / *known.targets[0].error95_m, 1.0 + 2.0 * 0.25 / 3.0, 1e-6);
+}
+
 TEST(Concerns, LeaveLinesThatWouldCarryWhatNoArmCarries) {
   CommandModel model = wave_model(2e-3);
   model.nominal.masses.clear();
