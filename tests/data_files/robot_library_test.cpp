@@ -1,5 +1,11 @@
-// The arms of configs/robots stand where their descriptions have them.
+// The arms of configs/robots stand where their descriptions, or their published dimensions, have them.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
 
 #include "data_files/robot_file.hpp"
 #include "kinematics/random_arm.hpp"
@@ -16,6 +22,69 @@ struct LibraryArm {
   const char* tip = nullptr;
 };
 
+const LibraryArm kDescribed[] = {{"abb-irb120", "irb120_3_58"},
+                                 {"abb-irb2600-12-165", "irb2600_12_165"},
+                                 {"abb-irb4600-20-250", "irb4600_20_250"},
+                                 {"abb-irb6700-200-260", "irb6700_200_260"},
+                                 {"fanuc-crx10ial", "crx10ial"},
+                                 {"fanuc-lrmate200id", "lrmate200id"},
+                                 {"fanuc-m20ia", "m20ia"},
+                                 {"fanuc-r2000ic-165f", "r2000ic165f"},
+                                 {"kuka-kr3-r540", "kr3r540"},
+                                 {"kuka-kr6-r900-2", "kr6r900_2"},
+                                 {"kuka-kr10-r1100", "kr10r1100sixx"},
+                                 {"kuka-kr210-l150", "kr210l150"},
+                                 {"yaskawa-mh5", "mh5"},
+                                 {"yaskawa-sia20d", "sia20d"},
+                                 {"staubli-rx160", "rx160"},
+                                 {"staubli-tx2-60", "tx2_60"},
+                                 {"franka-panda", "panda", "panda_link8"},
+                                 {"kuka-iiwa14", "iiwa14_no_collision", "iiwa_link_ee"},
+                                 {"puma560", "puma560_robot"},
+                                 {"ur5", "ur5", "tool0"},
+                                 {"ur5e", "universalUR5e"}};
+
+/// Where the flange of an arm without a description stands, and which way it points: sums, by hand, of the dimensions
+/// that the head of its file names, in poses where the links are level or upright.
+struct PublishedStand {
+  const char* robot;
+  std::vector<double> at_deg;
+  Eigen::Vector3d flange_mm, along;
+};
+
+const std::vector<PublishedStand> kPublished = {
+    {"abb-irb1600-6-145", {0, 0, 0, 0, 0, 0}, {815.0, 0.0, 1186.5}, {1.0, 0.0, 0.0}},
+    {"abb-irb1600-6-145", {0, 90, 0, 0, 0, 0}, {850.0, 0.0, -178.5}, {0.0, 0.0, -1.0}},
+    {"abb-irb1600-6-145", {90, 0, -90, 0, 90, 0}, {0.0, 215.0, 1786.5}, {0.0, 1.0, 0.0}},
+    {"yaskawa-gp8", {0, 0, 0, 0, 0, 0}, {460.0, 0.0, 715.0}, {1.0, 0.0, 0.0}},
+    {"yaskawa-gp8", {0, 90, 0, 0, 0, 0}, {425.0, 0.0, -90.0}, {0.0, 0.0, -1.0}},
+    {"yaskawa-gp8", {90, 0, 90, 0, -90, 0}, {0.0, 80.0, 1015.0}, {0.0, 1.0, 0.0}},
+    {"yaskawa-mh24", {0, 0, 0, 0, 0, 0}, {1045.0, 0.0, 960.0}, {1.0, 0.0, 0.0}},
+    {"yaskawa-mh24", {0, 90, 0, 0, 0, 0}, {1110.0, 0.0, -895.0}, {0.0, 0.0, -1.0}},
+    {"yaskawa-mh24", {90, 0, 90, 0, -90, 0}, {0.0, 50.0, 1555.0}, {0.0, 1.0, 0.0}},
+    {"staubli-tx2-90", {0, 0, 0, 0, 0, 0}, {50.0, 50.0, 1428.0}, {0.0, 0.0, 1.0}},
+    {"staubli-tx2-90", {0, 90, 0, 0, 0, 0}, {1000.0, 50.0, 478.0}, {1.0, 0.0, 0.0}},
+    {"staubli-tx2-90", {90, 0, 90, 0, 90, 0}, {-50.0, 475.0, 803.0}, {0.0, 0.0, -1.0}},
+    {"ur3", {0, 0, 0, 0, 0, 0}, {-456.9, -194.25, 66.55}, {0.0, -1.0, 0.0}},
+    {"ur3", {0, -90, 90, -90, 90, 0}, {-298.6, -112.35, 477.45}, {0.0, 0.0, 1.0}},
+    {"ur3e", {0, 0, 0, 0, 0, 0}, {-456.75, -223.15, 66.5}, {0.0, -1.0, 0.0}},
+    {"ur3e", {0, -90, 90, -90, 90, 0}, {-298.55, -131.05, 487.5}, {0.0, 0.0, 1.0}},
+    {"ur10", {0, 0, 0, 0, 0, 0}, {-1184.3, -256.141, 11.6}, {0.0, -1.0, 0.0}},
+    {"ur10", {0, -90, 90, -90, 90, 0}, {-688.0, -163.941, 831.5}, {0.0, 0.0, 1.0}},
+    {"ur10e", {0, 0, 0, 0, 0, 0}, {-1184.25, -290.7, 60.85}, {0.0, -1.0, 0.0}},
+    {"ur10e", {0, -90, 90, -90, 90, 0}, {-691.4, -174.15, 909.95}, {0.0, 0.0, 1.0}},
+    {"ur16e", {0, 0, 0, 0, 0, 0}, {-838.4, -290.7, 60.85}, {0.0, -1.0, 0.0}},
+    {"ur16e", {0, -90, 90, -90, 90, 0}, {-479.85, -174.15, 775.65}, {0.0, 0.0, 1.0}},
+    {"kuka-iiwa7", {0, 0, 0, 0, 0, 0, 0}, {0.0, 0.0, 1266.0}, {0.0, 0.0, 1.0}},
+    {"kuka-iiwa7", {0, 90, 0, 0, 0, 0, 0}, {926.0, 0.0, 340.0}, {1.0, 0.0, 0.0}},
+    {"kuka-iiwa7", {0, 0, 0, -90, 0, 90, 0}, {400.0, 0.0, 614.0}, {0.0, 0.0, -1.0}},
+    {"barrett-wam7", {0, 0, 0, 0, 0, 0, 0}, {0.0, 0.0, 910.0}, {0.0, 0.0, 1.0}},
+    {"barrett-wam7", {0, 0, 0, 90, 0, 90, 0}, {345.0, 0.0, 535.0}, {0.0, 0.0, -1.0}},
+    {"puma761", {0, 0, 0, 0, 0, 0}, {650.0, 191.0, 725.0}, {0.0, 0.0, 1.0}},
+    {"puma761", {90, -90, 90, 0, 90, 0}, {-191.0, 125.0, 1250.0}, {0.0, 1.0, 0.0}}};
+
+const std::filesystem::path kLibrary = std::filesystem::path(DEMECAL_SOURCE_DIR) / "configs/robots";
+
 class LibraryArms : public ::testing::TestWithParam<LibraryArm> {};
 
 TEST_P(LibraryArms, StandWithinAHundredthOfAMillimetreOfTheirDescription) {
@@ -26,7 +95,7 @@ TEST_P(LibraryArms, StandWithinAHundredthOfAMillimetreOfTheirDescription) {
   const UrdfArm arm =
       arm_between(urdf, {}, GetParam().tip == nullptr ? std::nullopt : std::optional<std::string>(GetParam().tip));
   const Chain described = equivalent_chain(arm.drawing).chain;
-  const Robot robot = load_robot(source / "configs/robots" / (std::string(GetParam().robot) + ".yaml"));
+  const Robot robot = load_robot(kLibrary / (std::string(GetParam().robot) + ".yaml"));
   ASSERT_EQ(robot.chain.size(), described.size());
   RandomStream stream{1851};
   for (int i = 0; i < 200; ++i) {
@@ -37,25 +106,29 @@ TEST_P(LibraryArms, StandWithinAHundredthOfAMillimetreOfTheirDescription) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Described, LibraryArms,
-    ::testing::Values(LibraryArm{"abb-irb120", "irb120_3_58"}, LibraryArm{"abb-irb2600-12-165", "irb2600_12_165"},
-                      LibraryArm{"abb-irb4600-20-250", "irb4600_20_250"},
-                      LibraryArm{"abb-irb6700-200-260", "irb6700_200_260"}, LibraryArm{"fanuc-crx10ial", "crx10ial"},
-                      LibraryArm{"fanuc-lrmate200id", "lrmate200id"}, LibraryArm{"fanuc-m20ia", "m20ia"},
-                      LibraryArm{"fanuc-r2000ic-165f", "r2000ic165f"}, LibraryArm{"kuka-kr3-r540", "kr3r540"},
-                      LibraryArm{"kuka-kr6-r900-2", "kr6r900_2"}, LibraryArm{"kuka-kr10-r1100", "kr10r1100sixx"},
-                      LibraryArm{"kuka-kr210-l150", "kr210l150"}, LibraryArm{"yaskawa-mh5", "mh5"},
-                      LibraryArm{"yaskawa-sia20d", "sia20d"}, LibraryArm{"staubli-rx160", "rx160"},
-                      LibraryArm{"staubli-tx2-60", "tx2_60"}, LibraryArm{"franka-panda", "panda", "panda_link8"},
-                      LibraryArm{"kuka-iiwa14", "iiwa14_no_collision", "iiwa_link_ee"},
-                      LibraryArm{"puma560", "puma560_robot"}, LibraryArm{"ur5", "ur5", "tool0"},
-                      LibraryArm{"ur5e", "universalUR5e"}),
-    [](const auto& instance) {
-      std::string name = instance.param.robot;
-      std::erase(name, '-');
-      return name;
-    });
+INSTANTIATE_TEST_SUITE_P(Described, LibraryArms, ::testing::ValuesIn(kDescribed), [](const auto& instance) {
+  std::string name = instance.param.robot;
+  std::erase(name, '-');
+  return name;
+});
+
+TEST(RobotLibrary, ArmsWithoutADescriptionStandWhereTheirPublishedDimensionsPutThem) {
+  for (const PublishedStand& stand : kPublished) {
+    SCOPED_TRACE(stand.robot);
+    const Robot robot = load_robot(kLibrary / (std::string(stand.robot) + ".yaml"));
+    const Eigen::Isometry3d flange = forward(robot.chain, joints_from_deg_or_mm(robot.chain, stand.at_deg));
+    EXPECT_LT((flange.translation() * 1e3 - stand.flange_mm).norm(), 0.01) << flange.translation().transpose() * 1e3;
+    EXPECT_LT((flange.linear().col(2) - stand.along).norm(), 1e-6) << flange.linear().col(2).transpose();
+  }
+}
+
+TEST(RobotLibrary, HasNoArmThatNothingHolds) {
+  std::set<std::string> held{"elbow-offset"}, shipped;  // which is invented
+  for (const LibraryArm& arm : kDescribed) held.insert(arm.robot);
+  for (const PublishedStand& stand : kPublished) held.insert(stand.robot);
+  for (const auto& file : std::filesystem::directory_iterator(kLibrary)) shipped.insert(file.path().stem().string());
+  EXPECT_THAT(shipped, ::testing::ElementsAreArray(held));
+}
 
 }  // namespace
 }  // namespace demecal
