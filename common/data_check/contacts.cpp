@@ -1,5 +1,6 @@
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "data/stated_radius.hpp"
 #include "data_check/searches.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
@@ -137,12 +138,17 @@ std::vector<Finding> check_contacts(const DataSet& data) {
     if (apart_m < kApart_m)
       if (auto wrong = find_wrong_lengths(data, *stiff, apart_m); !wrong.empty()) return wrong;
   }
-  const std::optional<Fit> fit = fitted_arm(data);
-  if (!fit) return {};
+  std::vector<Finding> radii = find_disagreeing_radii(data);
+  DataSet known = data;  // a wrong radius would bend the arm that poses are judged by
+  if (!radii.empty())
+    std::erase_if(known.contacts.distances,
+                  [](const KnownDistance& one) { return is_radius(one) && !is_wire_zero(one); });
+  const std::optional<Fit> fit = fitted_arm(known);
+  if (!fit) return radii;
   const double left_m = median_tool_error_m(data, fit->robot);
   if (left_m > kImplausible_m) return {of_other_robot(left_m)};
   std::vector<Finding> found = find_wrong_contacts(data, fit->robot);
-  std::ranges::move(find_disagreeing_radii(data), std::back_inserter(found));
+  std::ranges::move(radii, std::back_inserter(found));
   return found;
 }
 
