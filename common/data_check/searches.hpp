@@ -176,6 +176,10 @@ std::optional<Finding> find_computed_contacts(const DataSet& data, const Correct
 std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const CorrectedRobot& robot,
                                               const Posterior& posterior, const PredictionInterval& interval);
 
+/// Whether a fitted arm, whose scale known lengths tell, has all its links longer or shorter than described by one
+/// factor, by more than .2 % and than four standard deviations of what its posterior and makers' figures leave open.
+std::optional<Finding> find_common_factor(const DataSet& data, const CorrectedRobot& robot, const Posterior& posterior);
+
 /// Planes and lines stated as square or parallel that are not, by far, where `robot` predicts the tool.
 std::vector<Finding> find_wrong_angles(const DataSet& data, const CorrectedRobot& robot);
 
