@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -131,8 +132,11 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, const std::o
   for (const Finding& finding : check.findings) named.insert(finding.poses.begin(), finding.poses.end());
   DataSet rest = data;  // poses that are named already may hold a contact elsewhere
   std::erase_if(rest.poses, [&](const MeasuredPose& pose) { return named.contains(pose.pose_id); });
-  for (Finding& finding : find_disagreeing_lengths(rest, robot, *posterior, *interval))
-    check.findings.push_back(std::move(finding));
+  std::vector<Finding> lengths = find_disagreeing_lengths(rest, robot, *posterior, *interval);
+  // Lengths that contradict one another tell no scale.
+  if (lengths.empty())
+    if (auto factor = find_common_factor(rest, robot, *posterior)) lengths.push_back(std::move(*factor));
+  std::ranges::move(lengths, std::back_inserter(check.findings));
 }
 
 }  // namespace demecal::inline data_check

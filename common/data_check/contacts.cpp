@@ -1,5 +1,6 @@
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "data/stated_radius.hpp"
 #include "data_check/searches.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <iterator>
@@ -48,15 +50,22 @@ double median_tool_error_m(const DataSet& data, const CorrectedRobot& robot) {
   return median(tool_errors_m(robot, data, poses_of(data, PoseSet::calibration)));
 }
 
-/// The nominal arm with its tool where the calibration poses have it: known lengths have no say, since an arm whose
-/// links may bend would follow wrong ones.
-std::optional<Fit> stiff_arm(const DataSet& data) {
-  DataSet free = data;
-  free.contacts.distances.clear();
-  const Fit fit = fit_declared(free, poses_of(data, PoseSet::calibration), {.registration = true, .tool = true},
-                               nominal_robot(data));
-  if (fit.status == FitStatus::too_few_poses) return std::nullopt;
-  return fit;
+/// The same of the contact whose poses are farthest apart.
+double most_apart_m(const DataSet& data, const CorrectedRobot& robot) {
+  double most_m = 0.0;
+  for (const auto& [group, poses] : contact_groups(data))
+    if (group.set == PoseSet::calibration) most_m = std::max(most_m, median(tool_errors_m(robot, data, poses)));
+  return most_m;
+}
+
+/// How far the tool points of the calibration poses are from their middle, root mean square: an arm that is read to
+/// move less has everything nearer together.
+double spread_of_points_m(const DataSet& data, const CorrectedRobot& robot) {
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  Eigen::Matrix3Xd points(3, static_cast<Eigen::Index>(poses.size()));
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    points.col(static_cast<Eigen::Index>(i)) = touch_of(robot, data.poses[poses[i]]).point_m;
+  return std::sqrt((points.colwise() - points.rowwise().mean()).squaredNorm() / static_cast<double>(poses.size()));
 }
 
 /// The same data with joints read in another way.
@@ -71,16 +80,19 @@ DataSet with_joints_read(const DataSet& data, const Explanation& reading) {
   return changed;
 }
 
-/// How joints are read where the nominal arm then holds the poses together far better.
-std::optional<Finding> other_reading(const DataSet& data, double as_given_m) {
+/// How joints are read where the nominal arm then holds the poses together far better, of the way that they go.
+std::optional<Finding> other_reading(const DataSet& data, const CorrectedRobot& as_given, double as_given_m) {
   constexpr double kExplains = 0.3;
-  double best_m = kExplains * as_given_m;
+  double best_share = kExplains * as_given_m / spread_of_points_m(data, as_given), best_m = as_given_m;
   std::optional<Explanation> best;
   for (Explanation& reading : whole_set_explanations(data.robot.chain)) {
     const DataSet changed = with_joints_read(data, reading);
-    const std::optional<Fit> fit = stiff_arm(changed);
-    const double left_m = fit ? median_tool_error_m(changed, fit->robot) : best_m;
-    if (!(left_m < best_m)) continue;
+    const std::optional<CorrectedRobot> robot = stiff_arm(changed);
+    if (!robot) continue;
+    const double left_m = median_tool_error_m(changed, *robot);
+    const double share = left_m / spread_of_points_m(changed, *robot);
+    if (!(share < best_share && left_m < as_given_m)) continue;
+    best_share = share;
     best_m = left_m;
     best = std::move(reading);
   }
@@ -104,22 +116,39 @@ Finding of_other_robot(double as_given_m) {
 
 }  // namespace
 
+std::optional<CorrectedRobot> stiff_arm(const DataSet& data) {
+  DataSet free = data;
+  free.contacts.distances.clear();
+  free.contacts.angles.clear();
+  const Fit fit = fit_declared(free, poses_of(data, PoseSet::calibration), {.registration = true, .tool = true},
+                               nominal_robot(data));
+  if (fit.status == FitStatus::too_few_poses) return std::nullopt;
+  return fit.robot;
+}
+
 std::vector<Finding> check_contacts(const DataSet& data) {
   if (!has_contacts(data)) return {};
-  if (const std::optional<Fit> stiff = stiff_arm(data)) {
-    if (auto computed = find_computed_contacts(data, stiff->robot)) return {std::move(*computed)};
-    const double apart_m = median_tool_error_m(data, stiff->robot);
-    if (apart_m > kApart_m)
-      if (auto reading = other_reading(data, apart_m)) return {std::move(*reading)};
+  if (const std::optional<CorrectedRobot> stiff = stiff_arm(data)) {
+    if (auto computed = find_computed_contacts(data, *stiff)) return {std::move(*computed)};
+    const double apart_m = median_tool_error_m(data, *stiff);
+    if (most_apart_m(data, *stiff) > kApart_m)
+      if (auto reading = other_reading(data, *stiff, apart_m)) return {std::move(*reading)};
+    if (auto kinds = find_wrong_kinds(data); !kinds.empty()) return kinds;
+    if (auto angles = find_wrong_angles(data, *stiff); !angles.empty()) return angles;
     if (apart_m < kApart_m)
-      if (auto wrong = find_wrong_lengths(data, stiff->robot, apart_m); !wrong.empty()) return wrong;
+      if (auto wrong = find_wrong_lengths(data, *stiff, apart_m); !wrong.empty()) return wrong;
   }
-  const std::optional<Fit> fit = fitted_arm(data);
-  if (!fit) return {};
+  std::vector<Finding> radii = find_disagreeing_radii(data);
+  DataSet known = data;  // a wrong radius would bend the arm that poses are judged by
+  if (!radii.empty())
+    std::erase_if(known.contacts.distances,
+                  [](const KnownDistance& one) { return is_radius(one) && !is_wire_zero(one); });
+  const std::optional<Fit> fit = fitted_arm(known);
+  if (!fit) return radii;
   const double left_m = median_tool_error_m(data, fit->robot);
   if (left_m > kImplausible_m) return {of_other_robot(left_m)};
   std::vector<Finding> found = find_wrong_contacts(data, fit->robot);
-  std::ranges::move(find_disagreeing_radii(data), std::back_inserter(found));
+  std::ranges::move(radii, std::back_inserter(found));
   return found;
 }
 

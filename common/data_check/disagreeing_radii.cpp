@@ -65,16 +65,20 @@ Eigen::VectorXd deviations_of(const DataSet& data, const std::vector<std::size_t
 }
 
 Finding of_radius(const KnownDistance& stated, double found_m, double deviation_m, bool lengths_known) {
+  constexpr double kOfDiameter = 0.1;  // of the radius: a tip adds to it
   const double error_m = std::abs(found_m - stated.length_m);
-  return {.kind = FindingKind::disagreeing_length,
-          .as_given_mm = millimetres(error_m),
-          .sentence = fmt::format(
-              "The radius of '{}' is {:.6g} mm as given, and {:.3f} mm by all else that is known of the calibration "
-              "poses: {:.0f} times the standard uncertainty of both ({:.3f} mm). Correct contacts.radii_mm (the ball's "
-              "radius and that of the tip that touches it together){}, or state under contacts.radii_sigma_mm how well "
-              "it is known.",
-              stated.first, millimetres(stated.length_m), millimetres(found_m), error_m / deviation_m,
-              millimetres(deviation_m), lengths_known ? " or contacts.distances" : "")};
+  const bool is_diameter = std::abs(found_m - 0.5 * stated.length_m) < kOfDiameter * found_m;
+  return {
+      .kind = FindingKind::disagreeing_length,
+      .as_given_mm = millimetres(error_m),
+      .sentence = fmt::format(
+          "The radius of '{}' is {:.6g} mm as given, and {:.3f} mm by all else that is known of the calibration "
+          "poses: {:.0f} times the standard uncertainty of both ({:.3f} mm). {}Correct contacts.radii_mm (the ball's "
+          "radius and that of the tip that touches it together){}, or state under contacts.radii_sigma_mm how well "
+          "it is known.",
+          stated.first, millimetres(stated.length_m), millimetres(found_m), error_m / deviation_m,
+          millimetres(deviation_m), is_diameter ? "What is given seems to be the diameter. " : "",
+          lengths_known ? " or contacts.distances" : "")};
 }
 
 }  // namespace

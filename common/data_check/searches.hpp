@@ -140,6 +140,14 @@ std::vector<Finding> take_out_copies(DataSet& data);
 /// contradicted, else single poses are named, of all sets.
 std::vector<Finding> check_contacts(const DataSet& data);
 
+/// The nominal arm with its tool where the calibration poses have it: known lengths and angles have no say, since it
+/// would follow wrong ones. Nothing where the poses are too few.
+std::optional<CorrectedRobot> stiff_arm(const DataSet& data);
+
+/// Contacts whose touches lie far apart for what the contact is said to be, or taken for, and on a plane, sphere or
+/// line instead, while other contacts agree.
+std::vector<Finding> find_wrong_kinds(const DataSet& data);
+
 /// Known lengths that are not those of this arm's contacts by far, in another unit or by another factor, or in one set
 /// alone, whose contacts are then exchanged. `robot` predicts the tool, by lengths of its own, and leaves poses of one
 /// contact `apart_m` from their middle.
@@ -170,6 +178,13 @@ std::optional<Finding> find_computed_contacts(const DataSet& data, const Correct
 /// its posterior, and noise and model error of its interval leave open.
 std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const CorrectedRobot& robot,
                                               const Posterior& posterior, const PredictionInterval& interval);
+
+/// Whether a fitted arm, whose scale known lengths tell, has all its links longer or shorter than described by one
+/// factor, by more than .2 % and than four standard deviations of what its posterior and makers' figures leave open.
+std::optional<Finding> find_common_factor(const DataSet& data, const CorrectedRobot& robot, const Posterior& posterior);
+
+/// Planes and lines stated as square or parallel that are not, by far, where `robot` predicts the tool.
+std::vector<Finding> find_wrong_angles(const DataSet& data, const CorrectedRobot& robot);
 
 /// Stated radii of spheres that the calibration poses, links and what else is known have otherwise by more than four
 /// times what their own uncertainty and that of such a fit without them leave open.

@@ -1,8 +1,7 @@
 #include <fmt/format.h>
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
@@ -14,19 +13,18 @@
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data_check/searches.hpp"
+#include "data_check/touched_contacts.hpp"
 #include "kinematics/units.hpp"
-#include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
-#include "random/distributions.hpp"
 #include "trials/finding.hpp"
 
 namespace demecal::inline data_check {
 namespace {
 
-constexpr double kFar = 8.0;       ///< deviations beyond which no noise goes
-constexpr double kLeast_m = 3e-4;  ///< what a ball's play may be
-constexpr double kThere = 0.3;     ///< of the error: how far off the contact may be that a pose touches instead
+constexpr double kThere = 0.3;        ///< of the error: how far off the contact may be that a pose touches instead
+constexpr double kTouching_m = 5e-3;  ///< farther off no pose touches a contact, whatever its own does
+constexpr double kMuchNearer = 10.0;  ///< how many times farther out than noise goes a pose is that touches a surface
 
 /// A pose far from the contact that it names, at another one.
 struct WrongPose {
@@ -35,94 +33,112 @@ struct WrongPose {
   double error_m = 0.0, elsewhere_m = 0.0;
 };
 
-/// The poses that say what they touch, and where the robot predicts them.
+/// A pose far from the contact that it names, and others (of few) that may be wrong in its place.
+struct UnseatedPose {
+  std::size_t pose = 0;
+  std::vector<std::size_t> instead{};
+  double error_m = 0.0, distance_m = 0.0;
+};
+
+/// The poses that say what they touch, against where the robot predicts them.
 class ContactSearch {
  public:
-  /// Poses from where a contact moved are a group of their own.
-  ContactSearch(const DataSet& data, const CorrectedRobot& robot, const std::vector<MovedContact>& moved)
-      : data_(data), groups_(contact_groups(data)) {
-    for (const MovedContact& one : moved) {
-      std::vector<std::size_t>& before = groups_.at(one.group);
-      before.resize(before.size() - one.from_there.size());
-      groups_[{one.group.contact + " once moved", one.group.set}] = one.from_there;
-    }
-    for (const MeasuredPose& pose : data.poses)
-      touches_.push_back(pose.contact.empty() ? Touch{Eigen::Vector3d::Zero()} : touch_of(robot, pose));
-    std::vector<double> errors_m;
-    for (const auto& [group, members] : groups_) {
-      if (members.size() < 2) continue;
-      const ContactPlace place = place_without(group, std::nullopt);
-      for (const std::size_t pose : members) errors_m.push_back(contact_residual(place, touches_[pose]).norm());
-    }
-    if (!errors_m.empty()) far_m_ = std::max(kLeast_m, kFar * median(errors_m) / normal_length_quantile(3, 0.5));
-  }
+  explicit ContactSearch(TouchedContacts touched)
+      : touched_(std::move(touched)), data_(touched_.data()), far_m_(touched_.far_m()) {}
 
   std::vector<Finding> findings() {
     std::vector<Finding> all;
     while (const std::optional<WrongPose> wrong = worst_at_another()) {
       all.push_back(named(*wrong));
-      left_out_.push_back(wrong->pose);
+      touched_.leave_out(wrong->pose);
     }
     name_lone_poses(all);
-    std::vector<std::pair<std::size_t, double>> left;
-    std::vector<double> errors_m;
-    for (const auto& [group, members] : groups_) {
-      for (const std::size_t pose : members) {
-        if (std::ranges::find(left_out_, pose) != left_out_.end()) continue;
-        left.emplace_back(pose, error_at(group, pose));
-        errors_m.push_back(left.back().second);
+    std::vector<UnseatedPose> unseated;
+    for (const auto& [group, members] : touched_.groups())
+      while (const std::optional<UnseatedPose> worst = worst_unseated(group)) {
+        touched_.leave_out(worst->pose);
+        for (const std::size_t pose : worst->instead) touched_.leave_out(pose);
+        unseated.push_back(*worst);
       }
-    }
     // Many that are far out are no mistakes of a few poses, but of the arm: backlash that nobody declared, say.
+    std::vector<double> errors_m;
+    for (const UnseatedPose& one : unseated) errors_m.push_back(one.error_m);
+    for (const auto& [group, members] : touched_.groups())
+      std::ranges::copy(touched_.errors_m(group), std::back_inserter(errors_m));
     const double unseated_m = std::max(far_m_, gross_error_limit(errors_m));
-    for (const auto& [pose, error_m] : left)
-      if (error_m > unseated_m) all.push_back(touching_nothing(pose, error_m));
+    for (const UnseatedPose& one : unseated)
+      if (one.error_m > unseated_m) all.push_back(one.instead.empty() ? touching_nothing(one) : one_of_few(one));
     return all;
   }
 
  private:
-  /// Where the group's poses but one have the contact; of points the median along each axis, which few cannot move.
-  ContactPlace place_without(const ContactGroup& group, std::optional<std::size_t> without) const {
-    std::vector<Touch> touches;
-    for (const std::size_t pose : groups_.at(group)) {
-      const bool out = std::ranges::find(left_out_, pose) != left_out_.end() || pose == without;
-      if (!out) touches.push_back(touches_[pose]);
-    }
-    if (touches.empty()) touches.push_back(touches_[groups_.at(group).front()]);
-    ContactPlace place = contact_place(data_.contacts.form_of(group.contact), touches);
-    if (place.kind != ContactKind::point) return place;
-    for (int axis = 0; axis < 3; ++axis) {
-      std::vector<double> along;
-      for (const Touch& touch : touches) along.push_back(touch.point_m[axis]);
-      place.frame.translation()[axis] = median(along);
-    }
-    return place;
-  }
-
-  double error_at(const ContactGroup& group, std::size_t pose) const {
-    return contact_residual(place_without(group, pose), touches_[pose]).norm();
-  }
-
   /// Of the poses that lie far from their own contact and at another one, the one that gains most.
   std::optional<WrongPose> worst_at_another() const {
     std::optional<WrongPose> worst;
-    for (const auto& [group, members] : groups_) {
-      if (members.size() < 2) continue;
-      for (const std::size_t pose : members) {
-        if (std::ranges::find(left_out_, pose) != left_out_.end()) continue;
-        const double error_m = error_at(group, pose);
-        if (!(error_m > far_m_)) continue;
-        for (const auto& [other, others] : groups_) {
-          if (other == group || data_.poses[others.front()].contact_kind != ContactKind::point) continue;
+    for (const auto& [group, members] : touched_.groups()) {
+      const std::vector<std::size_t> poses = touched_.kept(group);
+      const std::vector<double> errors_m = touched_.errors_m(group);
+      // Where the place is not the middle of most, a wrong pose draws it from others.
+      const double least_m =
+          touched_.kind_of(group) == ContactKind::point
+              ? far_m_
+              : std::max(far_m_, 0.5 * std::ranges::max(errors_m.empty() ? std::vector{0.0} : errors_m));
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        if (!(errors_m[i] > least_m)) continue;
+        const double error_m = touched_.distance_m(group, poses[i]);
+        for (const auto& [other, others] : touched_.groups()) {
           if (other.contact == group.contact) continue;
-          const double elsewhere_m = contact_residual(place_without(other, std::nullopt), touches_[pose]).norm();
-          if (elsewhere_m > kThere * error_m) continue;
+          const double elsewhere_m = touched_.distance_m(touched_.place(other), poses[i]);
+          if (!touches_instead(other, error_m, elsewhere_m)) continue;
           if (!worst || error_m - elsewhere_m > worst->error_m - worst->elsewhere_m)
-            worst = WrongPose{pose, other.contact, error_m, elsewhere_m};
+            worst = WrongPose{poses[i], other.contact, error_m, elsewhere_m};
         }
       }
     }
     return worst;
+  }
+
+  /// Whether a pose that lies so far from its own contact and from another touches that one. Surfaces, which are met by
+  /// chance too, have to be touched by enough others to know where they are.
+  bool touches_instead(const ContactGroup& other, double error_m, double elsewhere_m) const {
+    if (touched_.kind_of(other) == ContactKind::point)
+      return elsewhere_m < kThere * error_m && elsewhere_m < std::max(kTouching_m, far_m_);
+    const std::vector<double> errors_m = touched_.errors_m(other);
+    return error_m > kMuchNearer * far_m_ && elsewhere_m < far_m_ &&
+           std::ranges::any_of(errors_m, [](double one) { return one > 0.0; }) && std::ranges::max(errors_m) < far_m_;
+  }
+
+  /// The pose that spoils its contact most, if one lies far out of it; and those without which the others agree as
+  /// well.
+  std::optional<UnseatedPose> worst_unseated(const ContactGroup& group) const {
+    const std::vector<double> errors_m = touched_.errors_m(group);
+    if (errors_m.empty()) return std::nullopt;
+    UnseatedPose worst{.error_m = std::ranges::max(errors_m)};
+    if (!(worst.error_m > far_m_)) return std::nullopt;
+    worst.pose = most_spoiling(group, errors_m);
+    worst.distance_m = touched_.distance_m(group, worst.pose);
+    if (!agree_without(group, worst.pose)) return worst;
+    for (const std::size_t other : touched_.kept(group))
+      if (other != worst.pose && agree_without(group, other)) worst.instead.push_back(other);
+    return worst;
+  }
+
+  /// The farthest from a point. Of other places that without which the others agree best: few touches turn a plane
+  /// over to come near one that is far off.
+  std::size_t most_spoiling(const ContactGroup& group, const std::vector<double>& errors_m) const {
+    const std::vector<std::size_t> poses = touched_.kept(group);
+    if (touched_.kind_of(group) == ContactKind::point)
+      return poses[static_cast<std::size_t>(std::ranges::max_element(errors_m) - errors_m.begin())];
+    const auto left_m2 = [&](std::size_t pose) {
+      double sum = 0.0;
+      for (const double one_m : touched_.errors_m(group, pose)) sum += one_m * one_m;
+      return sum;
+    };
+    return *std::ranges::min_element(poses, {}, left_m2);
+  }
+
+  bool agree_without(const ContactGroup& group, std::size_t pose) const {
+    return std::ranges::none_of(touched_.errors_m(group, pose), [this](double one_m) { return one_m > far_m_; });
   }
 
   /// A pose that alone of its set touches a point, and the nearest point that others touch.
@@ -133,11 +149,11 @@ class ContactSearch {
   };
 
   LonePose lone_pose(const ContactGroup& group) const {
-    LonePose lone{.pose = groups_.at(group).front()};
-    for (const auto& [other, others] : groups_) {
+    LonePose lone{.pose = touched_.groups().at(group).front()};
+    for (const auto& [other, others] : touched_.groups()) {
       if (other.contact == group.contact || others.size() < 2) continue;
-      if (data_.contacts.form_of(other.contact).kind != ContactKind::point) continue;
-      const double away_m = contact_residual(place_without(other, std::nullopt), touches_[lone.pose]).norm();
+      if (touched_.kind_of(other) != ContactKind::point) continue;
+      const double away_m = touched_.distance_m(touched_.place(other), lone.pose);
       if (away_m < lone.away_m) lone = {lone.pose, other.contact, away_m};
     }
     return lone;
@@ -153,8 +169,8 @@ class ContactSearch {
   /// Poses that are alone at the contact they name: by themselves where they are at another one, the rest set by set.
   void name_lone_poses(std::vector<Finding>& all) const {
     std::map<PoseSet, std::vector<std::size_t>> elsewhere;
-    for (const auto& [group, members] : groups_) {
-      if (members.size() > 1 || data_.contacts.form_of(group.contact).kind != ContactKind::point) continue;
+    for (const auto& [group, members] : touched_.groups()) {
+      if (members.size() > 1 || touched_.kind_of(group) != ContactKind::point) continue;
       const LonePose lone = lone_pose(group);
       if (lone.away_m < far_m_) {
         all.push_back(misnamed(lone));
@@ -201,22 +217,39 @@ class ContactSearch {
                                     distance_text(wrong.elsewhere_m), wrong.fits, wrong.fits)};
   }
 
-  Finding touching_nothing(std::size_t index, double error_m) const {
-    const MeasuredPose& pose = data_.poses[index];
+  Finding touching_nothing(const UnseatedPose& one) const {
+    const MeasuredPose& pose = data_.poses[one.pose];
     return {.kind = FindingKind::outlier,
             .poses = {pose.pose_id},
-            .as_given_mm = millimetres(error_m),
+            .as_given_mm = millimetres(one.distance_m),
             .sentence = fmt::format("Line {}{} lies {} from contact '{}', where the others agree within {}: the tool "
                                     "was not seated, or its joint values belong to another moment.",
-                                    pose.line, name_beside_line(pose), distance_text(error_m), pose.contact,
+                                    pose.line, name_beside_line(pose), distance_text(one.distance_m), pose.contact,
                                     distance_text(far_m_))};
   }
 
+  Finding one_of_few(const UnseatedPose& one) const {
+    const MeasuredPose& pose = data_.poses[one.pose];
+    Finding finding{.kind = FindingKind::outlier, .poses = {pose.pose_id}, .as_given_mm = millimetres(one.distance_m)};
+    std::vector<std::size_t> lines{pose.line};
+    for (const std::size_t other : one.instead) {
+      finding.poses.push_back(data_.poses[other].pose_id);
+      lines.push_back(data_.poses[other].line);
+    }
+    std::ranges::sort(lines);
+    finding.sentence = fmt::format(
+        "Of lines {} one at least does not fit contact '{}' (by {}): without it the others agree within {}, and too "
+        "few "
+        "{} poses touch it to tell which. The tool was not seated, or joint values belong to another moment: measure "
+        "them again, or exclude them.",
+        fmt::join(lines, ", "), pose.contact, distance_text(one.distance_m), distance_text(far_m_),
+        to_string(pose.set));
+    return finding;
+  }
+
+  TouchedContacts touched_;
   const DataSet& data_;
-  std::map<ContactGroup, std::vector<std::size_t>> groups_;
-  std::vector<Touch> touches_;
-  std::vector<std::size_t> left_out_;
-  double far_m_ = std::numeric_limits<double>::infinity();
+  double far_m_;
 };
 
 }  // namespace
@@ -224,7 +257,7 @@ class ContactSearch {
 std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRobot& robot) {
   if (!has_contacts(data)) return {};
   const std::vector<MovedContact> moved = find_moved_contacts(data, robot);
-  std::vector<Finding> found = ContactSearch(data, robot, moved).findings();
+  std::vector<Finding> found = ContactSearch(TouchedContacts(data, robot, moved)).findings();
   for (const MovedContact& one : moved) found.push_back(of_moved_contact(data, one));
   return found;
 }

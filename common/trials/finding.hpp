@@ -37,6 +37,7 @@ enum class FindingKind {
   typing_error,
   wrong_contact,
   contact_moved,
+  wrong_kind,
   wrong_length,
   disagreeing_length,
   wrong_orientation,

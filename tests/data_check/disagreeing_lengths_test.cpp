@@ -77,5 +77,18 @@ TEST(DisagreeingLengths, AreNoneWhereTheScaleIsNotKnown) {
   EXPECT_TRUE(disagreeing(data).empty());
 }
 
+/// Wrong by one factor, lengths agree among themselves, and with any arm that is longer by it.
+TEST(DisagreeingLengths, AreNamedByTheLinksWhereAllAreWrongByOneFactor) {
+  for (const double factor : {1.02, 0.98}) {
+    DataSet data = arm_at_blocks(9608).data;
+    for (KnownDistance& known : data.contacts.distances) known.length_m *= factor;
+    const std::vector<Finding> found = disagreeing(data);
+    ASSERT_EQ(found.size(), 1u) << factor;
+    EXPECT_THAT(found.front().sentence,
+                HasSubstr(factor > 1.0 ? "% longer than described" : "% shorter than described"));
+    EXPECT_THAT(found.front().sentence, HasSubstr("contacts.distances"));
+  }
+}
+
 }  // namespace
 }  // namespace demecal

@@ -50,5 +50,14 @@ TEST(DisagreeingRadii, AreNamedWhereALengthTellsThemOtherwise) {
                                    HasSubstr("contacts.radii_mm"), HasSubstr("contacts.radii_sigma_mm")));
 }
 
+TEST(DisagreeingRadii, AreSaidToBeDiametersAndNoPoseIsBlamedForThem) {
+  const std::vector<Finding> found = check_data(balls_stated(9804, 0.04)).findings;
+  ASSERT_EQ(found.size(), 2u);
+  for (const Finding& one : found) {
+    EXPECT_EQ(one.kind, FindingKind::disagreeing_length);
+    EXPECT_THAT(one.sentence, HasSubstr("What is given seems to be the diameter."));
+  }
+}
+
 }  // namespace
 }  // namespace demecal

@@ -57,4 +57,15 @@ inline void touch_ball(KnownArm& arm, RandomStream& stream, const std::string& b
   arm.data.contacts.forms[ball] = {ContactKind::sphere, {}};
 }
 
+/// The same of a level plate, anywhere within `half_m` of its middle.
+inline void touch_plate(KnownArm& arm, RandomStream& stream, const std::string& plate, const Eigen::Vector3d& middle_m,
+                        double half_m, int count, double play_m, PoseSet set = PoseSet::calibration) {
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d off(stream.real(-half_m, half_m), stream.real(-half_m, half_m), 0.0);
+    touch(arm, stream, plate, middle_m + off, 1, play_m, set);
+    arm.data.poses.back().contact_kind = ContactKind::plane;
+  }
+  arm.data.contacts.forms[plate].kind = ContactKind::plane;
+}
+
 }  // namespace demecal

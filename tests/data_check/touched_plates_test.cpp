@@ -1,0 +1,94 @@
+// A plate that few poses touch: none of these is blamed for how much the plate's place leans on it, and one that did
+// not touch it is named alone, or with those that may be wrong in its place.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "data_check/check_data.hpp"
+#include "fitting/touching_arm.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::Contains;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+const Eigen::Vector3d kPlateMiddle(0.4, 0.05, 0.15);
+
+/// Four sockets, and a plate that so many poses touch for calibration, the last of them `off_m` above it, and others
+/// for validation.
+DataSet plate_data(std::uint64_t seed, int touches, int validating, double off_m = 0.0) {
+  constexpr double kPlay_m = 4e-5;
+  RandomStream stream{seed};
+  KnownArm arm = perfect_arm(seven_joint_arm(), Frame::base);
+  misbuild(arm, stream, {.joint_offset = true, .geometry = true});
+  const Eigen::Vector3d gauge(0.0, 0.06, 0.08);
+  for (const auto& [side, at_m] :
+       {std::pair("left", Eigen::Vector3d(0.45, 0.25, 0.1)), std::pair("right", Eigen::Vector3d(0.35, -0.35, 0.35))}) {
+    touch(arm, stream, std::string(side) + "-0", at_m, 8, kPlay_m);
+    touch(arm, stream, std::string(side) + "-1", at_m + gauge, 8, kPlay_m);
+  }
+  touch_plate(arm, stream, "plate", kPlateMiddle, 0.15, validating, kPlay_m, PoseSet::validation);
+  touch_plate(arm, stream, "plate", kPlateMiddle, 0.15, touches - 1, kPlay_m);
+  touch_plate(arm, stream, "plate", kPlateMiddle + Eigen::Vector3d(0.0, 0.0, off_m), 0.15, 1, kPlay_m);
+  return arm.data;
+}
+
+TEST(TouchedPlates, NameNoPoseThatIsRight) {
+  for (std::uint64_t seed = 9901; seed < 9911; ++seed)
+    for (const int validating : {3, 4, 5})
+      EXPECT_THAT(check_data(plate_data(seed, 8, validating)).findings, IsEmpty()) << seed << " " << validating;
+}
+
+TEST(TouchedPlates, NameThePoseThatDidNotTouchAndNoOther) {
+  for (std::uint64_t seed = 9921; seed < 9925; ++seed)
+    for (const int touches : {8, 14})
+      for (const double off_m : {2e-3, 1e-2, 0.2}) {
+        const DataSet data = plate_data(seed, touches, 4, off_m);
+        const std::vector<Finding> found = check_data(data).findings;
+        ASSERT_EQ(found.size(), 1u) << seed << " " << touches << " " << off_m;
+        EXPECT_EQ(found[0].kind, FindingKind::outlier);
+        EXPECT_THAT(found[0].poses, ElementsAre(data.poses.back().pose_id));
+      }
+}
+
+TEST(TouchedPlates, SayThatOneOfTooFewPosesIsWrong) {
+  const DataSet data = plate_data(9931, 4, 0, 1e-2);
+  const std::vector<Finding> found = check_data(data).findings;
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].kind, FindingKind::outlier);
+  EXPECT_EQ(found[0].poses.size(), 4u);
+  EXPECT_THAT(found[0].poses, Contains(data.poses.back().pose_id));
+  EXPECT_THAT(found[0].sentence, HasSubstr("one at least does not fit contact 'plate'"));
+}
+
+TEST(TouchedPlates, NameThePlateThatAPoseTouchedInstead) {
+  DataSet data = plate_data(9941, 8, 4);
+  for (const char* const wrong : {"left-1", "right-0"}) {
+    DataSet changed = data;
+    MeasuredPose& pose = changed.poses.back();
+    pose.contact = wrong;
+    pose.contact_kind = ContactKind::point;
+    const std::vector<Finding> found = check_data(changed).findings;
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].kind, FindingKind::wrong_contact);
+    EXPECT_THAT(found[0].poses, ElementsAre(pose.pose_id));
+    EXPECT_THAT(found[0].sentence, HasSubstr("most likely it touched 'plate'"));
+  }
+}
+
+TEST(TouchedPlates, NameNoPoseForTheFlatnessThatIsStated) {
+  DataSet data = plate_data(9951, 14, 4, 8e-4);
+  EXPECT_EQ(check_data(data).findings.size(), 1u);
+  data.contacts.forms["plate"].flatness_m = 2e-3;
+  weigh_by_flatness(data);
+  EXPECT_THAT(check_data(data).findings, IsEmpty());
+}
+
+}  // namespace
+}  // namespace demecal
