@@ -10,15 +10,40 @@ namespace {
 // own Jacobian takes over, damped so that steps stay within what joints may move. Turns weigh as a lever of LEVER
 // metres.
 constexpr const char* kReach =
-    R"code(/* What takes the tool from `pose` to `goal`: metres, and turns times LEVER, exact to second order of small ones. */
+    R"code(/* A turn of more than a right angle, which its sine does not tell: the angle times the axis, which the largest column
+   of the turn's symmetric part shows, and `turn` (the sine times the axis) the side of. */
+static void far_turn(const double goal[16], const double pose[16], double cosine, double turn[3]) {
+  double axis[3], largest = 0.0, square = 0.0, side = 0.0;
+  int column = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double *p = pose + 4*i, *g = goal + 4*i;
+    const double diagonal = p[0]*g[0] + p[1]*g[1] + p[2]*g[2] - cosine;
+    if (diagonal > largest) column = i;
+    if (diagonal > largest) largest = diagonal;
+  }
+  for (int i = 0; i < 3; ++i) {
+    axis[i] = i == column ? -cosine : 0.0;
+    for (int k = 0; k < 3; ++k)
+      axis[i] += 0.5*(goal[4*i + k]*pose[4*column + k] + goal[4*column + k]*pose[4*i + k]);
+    square += axis[i]*axis[i];
+    side += axis[i]*turn[i];
+  }
+  const double sine = sqrt(turn[0]*turn[0] + turn[1]*turn[1] + turn[2]*turn[2]);
+  const double scale = (side < 0.0 ? -1.0 : 1.0)*atan2(sine, cosine)/sqrt(square);
+  for (int i = 0; i < 3; ++i) turn[i] = scale*axis[i];
+}
+
+/* What takes the tool from `pose` to `goal`: metres, and turns times LEVER, exact to second order of small ones. */
 static void pose_error(const double goal[16], const double pose[16], double error[6]) {
-  double turn[3] = {0.0, 0.0, 0.0};
+  double turn[3] = {0.0, 0.0, 0.0}, cosine = -0.5;
   for (int k = 0; k < 3; ++k) {
     const double *p = pose + k, *g = goal + k;
     turn[0] += 0.5*(p[4]*g[8] - p[8]*g[4]);
     turn[1] += 0.5*(p[8]*g[0] - p[0]*g[8]);
     turn[2] += 0.5*(p[0]*g[4] - p[4]*g[0]);
+    cosine += 0.5*(p[0]*g[0] + p[4]*g[4] + p[8]*g[8]);
   }
+  if (cosine < 0.0) far_turn(goal, pose, cosine, turn);
   for (int i = 0; i < 3; ++i) {
     error[i] = goal[4*i + 3] - pose[4*i + 3];
     error[3 + i] = LEVER*turn[i];

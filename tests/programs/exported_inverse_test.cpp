@@ -28,15 +28,29 @@ std::string listed(const JointVector& joints) {
   return text.str();
 }
 
-std::vector<ExportedCommand> exported_commands(const CorrectedRobot& robot, const std::vector<JointVector>& stops) {
+/// To where the tool is at the stop, from joints of which one is half a turn elsewhere.
+constexpr const char* kHalfTurned = R"code(
+double half_turned(const double stop[N], int joint, double command[N]);
+double half_turned(const double stop[N], int joint, double command[N]) {
+  double goal[16];
+  forward(stop, goal);
+  for (int i = 0; i < N; ++i) command[i] = stop[i];
+  command[joint] += 3.14159265358979;
+  return inverse(goal, command);
+}
+)code";
+
+std::vector<ExportedCommand> exported_commands(const CorrectedRobot& robot, const std::vector<JointVector>& stops,
+                                               const std::string& call = "corrected(stops[i], command)") {
   Algebra algebra;
   std::ostringstream code;
   code << code_of(listing_of(corrected_arm(algebra, robot, ""), robot, "An arm"), CodeLanguage::c)
-       << inverse_in_c(described_listing(algebra, robot, robot.tool(""))) << "#include <stdio.h>\nint main(void) {\n"
+       << inverse_in_c(described_listing(algebra, robot, robot.tool(""))) << "#include <stdio.h>\n"
+       << kHalfTurned << "int main(void) {\n"
        << "  static const double stops[][N] = {";
   for (const JointVector& stop : stops) code << '{' << listed(stop) << "},\n";
-  code << "};\n  double command[N];\n  for (int i = 0; i < " << stops.size()
-       << "; ++i) {\n    printf(\"%.17g\\n\", corrected(stops[i], command));\n"
+  code << "};\n  double command[N];\n  for (int i = 0; i < " << stops.size() << "; ++i) {\n    printf(\"%.17g\\n\", "
+       << call << ");\n"
        << "    for (int k = 0; k < N; ++k) printf(\"%.17g\\n\", command[k]);\n  }\n  return 0;\n}\n";
   const CodeFolder folder;
   const std::string program = folder.path("commands");
@@ -109,6 +123,24 @@ TEST(ExportedInverse, OfArmsWithOtherNumbersOfJointsIsAsPrograms) {
       same += agrees && std::abs(commands[i].left - left) < 1e-6 ? 1 : 0;
     }
     EXPECT_GE(same, 97) << joints << " joints";
+  }
+}
+
+TEST(ExportedInverse, ReachesNothingHalfTurned) {
+  if (!there_is("cc")) GTEST_SKIP() << "there is no C compiler called cc";
+  RandomStream stream{7563};
+  const Robot nominal = elbow_arm(stream);
+  const CorrectedRobot robot = erring(stream, nominal);
+  std::vector<JointVector> stops;
+  for (int i = 0; i < 20; ++i) stops.push_back(regular_joints(stream, nominal.chain));
+  for (const int joint : {3, 5}) {
+    const std::string call = "half_turned(stops[i], " + std::to_string(joint) + ", command)";
+    const std::vector<ExportedCommand> commands = exported_commands(robot, stops, call);
+    for (std::size_t i = 0; i < stops.size(); ++i) {
+      const Eigen::Isometry3d goal = robot.predict(Stop(stops[i]), "");
+      const Eigen::Isometry3d reached = robot.predict(Stop(commands[i].command), "");
+      if (commands[i].left < 1e-6) EXPECT_TRUE(reached.isApprox(goal, 1e-5)) << stops[i].transpose();
+    }
   }
 }
 
