@@ -44,13 +44,13 @@ static void diagonalize(double matrix[6][6], double vectors[6][6]) {
 
 /* Newton's steps from q in the directions that the arm has not lost: those with singular values above LOST, positions
    counting over `length`. */
-static void keep_to(const double goal[16], double length, double q[N]) {
+static void keep_to(const struct circumstances* at, const double goal[16], double length, double q[N]) {
   double jacobian[6][N], square[6][6], vectors[6][6], pose[16], error[6], along[6];
   for (int round = 0; round < 12; ++round) {
     double moved = 0.0;
-    forward(q, pose);
+    forward_at(at, q, pose);
     pose_error(goal, pose, error);
-    differentiate(forward, q, pose, 0, jacobian);
+    differentiate(forward_at, at, q, pose, 0, jacobian);
     for (int i = 0; i < 6; ++i) {
       const double scale = i < 3 ? length : LEVER;
       error[i] /= scale;
@@ -81,13 +81,14 @@ static void keep_to(const double goal[16], double length, double q[N]) {
 
 /* The joints that bring the tool nearest to the goal in the directions that the arm has not lost, of position rather
    than of orientation; of both alike where that takes a joint farther than `far`. */
-static void approach(const double goal[16], double far, double q[N]) {
+static void approach(const struct circumstances* at, const double goal[16], double far,
+                     double q[N]) {
   double start[N];
   for (int i = 0; i < N; ++i) start[i] = q[i];
-  keep_to(goal, FIRST, q);
+  keep_to(at, goal, FIRST, q);
   if (largest_motion(q, start) <= far) return;
   for (int i = 0; i < N; ++i) q[i] = start[i];
-  keep_to(goal, LENGTH, q);
+  keep_to(at, goal, LENGTH, q);
 }
 
 )code";
@@ -108,15 +109,16 @@ static double cost_of(const double goal[16], const double pose[16], const double
 }
 
 /* The joints that bring the tool nearest to the goal, of position rather than of orientation: too few for both. */
-static void approach(const double goal[16], double far, double q[N]) {
+static void approach(const struct circumstances* at, const double goal[16], double far,
+                     double q[N]) {
   double jacobian[6][N], root[N][N], pose[16], error[6], step[N], start[N], tried[N];
   (void)far;
   for (int i = 0; i < N; ++i) start[i] = q[i];
-  forward(q, pose);
+  forward_at(at, q, pose);
   double cost = cost_of(goal, pose, q, start, error);
   for (int round = 0; round < 30; ++round) {
     double share = 1.0, lower = cost;
-    differentiate(forward, q, pose, 1, jacobian);
+    differentiate(forward_at, at, q, pose, 1, jacobian);
     for (int i = 0; i < 6; ++i)
       for (int k = 0; k < N; ++k) jacobian[i][k] /= i < 3 ? FIRST : LEVER;
     factorize(jacobian, CALM*CALM, root);
@@ -127,7 +129,7 @@ static void approach(const double goal[16], double far, double q[N]) {
     substitute(root, step);
     for (; share > 1e-4; share *= 0.5) {
       for (int k = 0; k < N; ++k) tried[k] = q[k] + share*step[k];
-      forward(tried, pose);
+      forward_at(at, tried, pose);
       lower = cost_of(goal, pose, tried, start, error);
       if (lower < cost) break;
     }
@@ -142,18 +144,19 @@ static void approach(const double goal[16], double far, double q[N]) {
 constexpr const char* kFunctions =
     R"code(/* Joints at which the tool is at the goal, none farther than `freely` and a few times the way from where it was, nor
    than `most`; where there are none, near singular joints or beyond the arm's reach, the nearest that there are. */
-static double solve(const double goal[16], double freely, double most, double q[N]) {
+static double solve(const struct circumstances* at, const double goal[16], double freely, double most,
+                    double q[N]) {
   double start[N], pose[16], error[6], left;
   for (int i = 0; i < N; ++i) start[i] = q[i];
-  forward(start, pose);
+  forward_at(at, start, pose);
   pose_error(goal, pose, error);
   const double far = GAIN*angle_of(error) + freely;
   if (far < most) most = far;
-  left = reach(goal, most, q);
+  left = reach(at, goal, most, q);
   if (left < 1e-6 && largest_motion(q, start) <= most) return left;
   for (int i = 0; i < N; ++i) q[i] = start[i];
-  approach(goal, far, q);
-  forward(q, pose);
+  approach(at, goal, far, q);
+  forward_at(at, q, pose);
   pose_error(goal, pose, error);
   return norm_of(error);
 }
@@ -162,16 +165,34 @@ static double solve(const double goal[16], double freely, double most, double q[
    and is overwritten. Bounded steps, no memory is allocated. Returns how far the tool then is from the goal, in m, turns
    counted at a lever of a quarter of a metre: above 1e-6 the goal was not reached, and joints are those that bring the
    tool near to it without moving by more than 3 degrees and a few times the way there. */
-double inverse(const double goal[16], double q[N]) { return solve(goal, 0.05, 1e300, q); }
+double inverse_at(const struct circumstances* at, const double goal[16], double q[N]) {
+  return solve(at, goal, 0.05, 1e300, q);
+}
 
 /* Joints to command so that the calibrated tool stands where the arm and the tool as they are described, in the same
    base, would stand at `nominal`. Near singular joints what would move them by more than a few times the correction is
-   left, of orientation rather than of position. Returns what is left, as inverse does. */
-double corrected(const double nominal[N], double command[N]) {
+   left, of orientation rather than of position. Returns what is left, as inverse_at does. */
+double corrected_at(const struct circumstances* at, const double nominal[N], double command[N]) {
   double goal[16];
-  nominal_forward(nominal, goal);
+  nominal_forward(at, nominal, goal);
   for (int i = 0; i < N; ++i) command[i] = nominal[i];
-  return solve(goal, 2e-4, 0.5, command);
+  return solve(at, goal, 2e-4, 0.5, command);
+}
+
+/* The same with all circumstances 0. */
+double inverse(const double goal[16], double q[N]) {
+  const struct circumstances none = {0};
+  return inverse_at(&none, goal, q);
+}
+double corrected(const double nominal[N], double command[N]) {
+  const struct circumstances none = {0};
+  return corrected_at(&none, nominal, command);
+}
+
+/* Notes from which side a motion between two stops brings the joints; those that it does not move keep theirs. */
+void note_motion(struct circumstances* at, const double from[N], const double to[N]) {
+  for (int i = 0; i < N; ++i)
+    if (fabs(to[i] - from[i]) > 1e-9) at->approach[i] = to[i] > from[i] ? 1.0 : -1.0;
 }
 )code";
 

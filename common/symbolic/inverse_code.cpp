@@ -23,7 +23,8 @@ std::string nominal_forward(const Listing& nominal) {
         terms_of(pose), [&](Expression term) { return term->kind == ExpressionKind::symbol && term->name == symbol; });
   };
   std::ostringstream out;
-  out << "static void nominal_forward(const double q[N], double pose[16]) {\n";
+  out << "static void nominal_forward(const struct circumstances* at, const double q[N], double pose[16]) {\n  "
+         "(void)at;\n";
   for (std::size_t i = 0; i < nominal.actual.size(); ++i) {
     const auto joint = static_cast<int>(i + 1);
     for (const std::string& symbol : {commanded_joint(joint), actual_joint(joint)})

@@ -72,18 +72,19 @@ static double largest_motion(const double q[N], const double from[N]) {
 }
 
 /* The derivatives of an arm's pose `here` at joints q, by differences; `central`: on both sides. */
-static void differentiate(void (*arm)(const double[N], double[16]), const double q[N], const double here[16],
-                          int central, double jacobian[6][N]) {
+static void differentiate(void (*arm)(const struct circumstances*, const double[N], double[16]),
+                          const struct circumstances* at, const double q[N], const double here[16], int central,
+                          double jacobian[6][N]) {
   double there[16], moved[N], column[6], before[6];
   for (int i = 0; i < N; ++i) moved[i] = q[i];
   for (int k = 0; k < N; ++k) {
     moved[k] = q[k] + STEP;
-    arm(moved, there);
+    arm(at, moved, there);
     pose_error(there, here, column);
     for (int i = 0; i < 6; ++i) jacobian[i][k] = column[i]/STEP;
     if (central) {
       moved[k] = q[k] - STEP;
-      arm(moved, there);
+      arm(at, moved, there);
       pose_error(there, here, before);
       for (int i = 0; i < 6; ++i) jacobian[i][k] = 0.5*(column[i] - before[i])/STEP;
     }
@@ -125,14 +126,14 @@ static void substitute(double root[N][N], double step[N]) {
 }
 
 /* Newton's steps from q, while no joint is farther than `most` from where it was. */
-static double reach(const double goal[16], double most, double q[N]) {
+static double reach(const struct circumstances* at, const double goal[16], double most, double q[N]) {
   double jacobian[6][N], root[N][N], pose[16], error[6], step[N], start[N], left = 0.0, before = 1e300;
   for (int i = 0; i < N; ++i) start[i] = q[i];
   for (int round = 0; round <= 32; ++round) {
     double largest = 0.0;
     if (round == 4 && !(largest_motion(q, start) <= most))
       for (int i = 0; i < N; ++i) q[i] = start[i];
-    forward(q, pose);
+    forward_at(at, q, pose);
     pose_error(goal, pose, error);
     left = norm_of(error);
     if (left < 1e-10 || round == 32) break;
@@ -143,11 +144,11 @@ static double reach(const double goal[16], double most, double q[N]) {
     }
     if (round == 0) {
       double nominal[16];
-      nominal_forward(q, nominal);
-      differentiate(nominal_forward, q, nominal, 0, jacobian);
+      nominal_forward(at, q, nominal);
+      differentiate(nominal_forward, at, q, nominal, 0, jacobian);
       factorize(jacobian, 0.0, root);
     } else if (round > 3 && round % 2 == 0) {
-      differentiate(forward, q, pose, round > 4, jacobian);
+      differentiate(forward_at, at, q, pose, round > 4, jacobian);
       factorize(jacobian, 0.25*left*left/(most*most), root);
     }
     for (int r = 0; r < N; ++r) {
