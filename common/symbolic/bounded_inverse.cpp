@@ -166,7 +166,13 @@ static double solve(const struct circumstances* at, const double goal[16], doubl
    counted at a lever of a quarter of a metre: above 1e-6 the goal was not reached, and joints are those that bring the
    tool near to it without moving by more than 3 degrees and a few times the way there. */
 double inverse_at(const struct circumstances* at, const double goal[16], double q[N]) {
-  return solve(at, goal, 0.05, 1e300, q);
+  double again[N], left = solve(at, goal, NEARBY, 1e300, q);
+  if (left < 1e-10 || left > 1e-4) return left;
+  for (int i = 0; i < N; ++i) again[i] = q[i];
+  const double closer = reach(at, goal, NEARBY, again);
+  if (!(closer < left && largest_motion(again, q) <= NEARBY)) return left;
+  for (int i = 0; i < N; ++i) q[i] = again[i];
+  return closer;
 }
 
 /* Joints to command so that the calibrated tool stands where the arm and the tool as they are described, in the same

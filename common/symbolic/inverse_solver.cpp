@@ -169,7 +169,7 @@ static double reach(const struct circumstances* at, const double goal[16], doubl
 
 std::string inverse_constants_in_c() {
   return "#define LEVER 0.25\n#define STEP 1e-5\n#define DAMPING 1e-13\n#define LENGTH 0.3\n#define FIRST 0.01\n"
-         "#define LOST 0.125\n#define GAIN 3.0\n#define CALM 0.02\n\n";
+         "#define LOST 0.125\n#define GAIN 3.0\n#define CALM 0.02\n#define NEARBY 0.05\n\n";
 }
 
 std::string reach_in_c() {
