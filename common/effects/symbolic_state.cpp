@@ -60,7 +60,7 @@ SymbolicVector moment(const SymbolicState& state, int joint, const Eigen::Vector
 }
 
 /// The frame in which the link's transform `parameter` acts, from where the link begins.
-SymbolicFrame frame_before(const SymbolicWriter& writer, LinkParameter parameter) {
+SymbolicFrame symbolic_frame_before(const SymbolicWriter& writer, LinkParameter parameter) {
   const Chain& chain = writer.robot().chain;
   const auto joint = static_cast<std::size_t>(writer.effect.joint);
   SymbolicFrame frame(writer.state.algebra());
@@ -248,7 +248,8 @@ void SymbolicWriter::append_wave(Expression angle) {
 void SymbolicWriter::append_link(int coefficient, LinkParameter parameter, Expression size) {
   const auto& transforms = elementary_transforms(robot().chain.convention);
   const Elementary transform = *std::ranges::find(transforms, parameter, &Elementary::parameter);
-  const SymbolicFrame seen = seen_from(frame_before(*this, LinkParameter::theta), frame_before(*this, parameter));
+  const SymbolicFrame seen =
+      seen_from(symbolic_frame_before(*this, LinkParameter::theta), symbolic_frame_before(*this, parameter));
   const SymbolicVector& direction = seen.axes[static_cast<std::size_t>(transform.axis)];
   const SymbolicVector shift = transform.rotates ? cross(seen.origin, direction) : direction;
   for (int axis = 0; axis < 3; ++axis) {
