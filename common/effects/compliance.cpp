@@ -256,16 +256,17 @@ void ComplianceLaw::append_symbolic_motions(SymbolicWriter& writer) const {
   const Eigen::Vector3d& gravity = writer.robot().gravity_mps2;
   const auto turned = turned_gravity(gravity);
   int coefficient = 0;
-  if (effect.form == "payload") return;
+  Expression torque = payload_torque(writer.state, effect.joint);
+  if (effect.form == "payload") return writer.append_joint(coefficient, torque);
   if (effect.form == "moments") {
     const std::size_t turn = gravity_turn(effect);
     const Eigen::Vector3d& pull = turn == 0 ? gravity : turned.at(turn - 1);
     for (const WeightPart& part : kept_parts(effect))
       writer.append_joint(coefficient++, lever(writer.state, effect.joint, part, pull));
+    if (with_payload(effect)) writer.append_joint(coefficient, torque);
     return;
   }
   if (effect.form == "logged") {
-    Expression torque = writer.constant(0.0);
     for (const auto& [name, value] : effect.settings) {
       if (!name.starts_with(kLogged)) continue;
       const auto part = weight_part(std::string_view(name).substr(kLogged.size()));
@@ -274,9 +275,8 @@ void ComplianceLaw::append_symbolic_motions(SymbolicWriter& writer) const {
     return writer.append_joint(coefficient, torque);
   }
   writer.append_joint(coefficient++, writer.torque(effect.joint));
-  if (effect.form != "tilted") return;
   for (const Eigen::Vector3d& pull : turned)
-    writer.append_joint(coefficient++, effort(writer.state, effect.joint, pull));
+    if (effect.form == "tilted") writer.append_joint(coefficient++, effort(writer.state, effect.joint, pull));
 }
 
 std::vector<std::string> ComplianceLaw::settings() const {

@@ -60,7 +60,7 @@ class BacklashLaw final : public EffectLaw {
   }
   void append_symbolic_motions(SymbolicWriter& writer) const override {
     const Effect& effect = writer.effect;
-    if (!seated(effect)) return;  // the other forms are of the approach
+    if (!seated(effect)) return writer.append_joint(0, -0.5 * writer.state.approach(approaching(effect)));
     const Expression share = writer.torque(effect.joint) / writer.constant(effect.setting("torque0_nm"));
     writer.append_joint(0, 0.5 * writer.state.algebra().function(Function::hyperbolic_tangent, {share}));
   }
@@ -170,6 +170,12 @@ class HysteresisLaw final : public EffectLaw {
            " of gravity's pull on it: friction held by the spring of its gear.";
   }
   Circumstance prerequisite() const override { return Circumstance::approach; }
+  void append_symbolic_motions(SymbolicWriter& writer) const override {
+    const int joint = writer.effect.joint;
+    const Expression side = -writer.state.approach(joint);
+    writer.append_joint(0, side);
+    writer.append_joint(1, side * writer.state.algebra().function(Function::absolute, {writer.torque(joint)}));
+  }
 };
 
 }  // namespace

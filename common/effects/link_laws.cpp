@@ -21,35 +21,6 @@
 namespace demecal::inline effects {
 namespace {
 
-/// The frame in which the link's transform `parameter` acts, from where the link begins.
-SymbolicFrame symbolic_frame_before(const SymbolicWriter& writer, LinkParameter parameter) {
-  const Chain& chain = writer.robot().chain;
-  const Joint& link = chain.joints[static_cast<std::size_t>(writer.effect.joint)];
-  SymbolicFrame frame(writer.state.algebra());
-  for (const Elementary& transform : elementary_transforms(chain.convention)) {
-    if (transform.parameter == parameter) break;
-    advance(frame, transform,
-            elementary_value(link, transform.parameter,
-                             writer.state.driven[static_cast<std::size_t>(writer.effect.joint)]));
-  }
-  return frame;
-}
-
-/// A change of a link parameter: its transform's screw, seen from the joint's place.
-void append_symbolic_link_motion(SymbolicWriter& writer, int coefficient, LinkParameter parameter) {
-  const auto& transforms = elementary_transforms(writer.robot().chain.convention);
-  const Elementary transform = *std::ranges::find(transforms, parameter, &Elementary::parameter);
-  const SymbolicFrame seen =
-      seen_from(symbolic_frame_before(writer, LinkParameter::theta), symbolic_frame_before(writer, parameter));
-  const SymbolicVector& direction = seen.axes[static_cast<std::size_t>(transform.axis)];
-  const SymbolicVector shift = transform.rotates ? cross(seen.origin, direction) : direction;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    writer.append(coefficient, writer.effect.joint, axis, shift[i]);
-    if (transform.rotates) writer.append(coefficient, writer.effect.joint, 3 + axis, direction[i]);
-  }
-}
-
 struct FreeParameter {
   LinkParameter parameter;
   std::string symbol;
@@ -110,7 +81,7 @@ class GeometryLaw final : public EffectLaw {
   void append_symbolic_motions(SymbolicWriter& writer) const override {
     int coefficient = 0;
     for (const FreeParameter& free : free_parameters_of(writer.robot(), writer.effect.joint)) {
-      append_symbolic_link_motion(writer, coefficient++, free.parameter);
+      writer.append_link(coefficient++, free.parameter, writer.constant(1.0));
     }
   }
 };

@@ -50,10 +50,10 @@ UsedFormula used_formula(const SymbolicWriter& writer) {
   }
   for (auto& [variable, place] : places) {
     place = static_cast<std::uint8_t>(result.arguments.size());
-    const bool torque = variable == joints;  // behind it s and T, of which nothing is known
-    result.arguments.push_back(variable < joints ? writer.joint(variable)
-                               : torque          ? writer.torque(writer.effect.joint)
-                                                 : writer.constant(0.0));
+    result.arguments.push_back(variable < joints        ? writer.joint(variable)
+                               : variable == joints     ? writer.torque(writer.effect.joint)
+                               : variable == joints + 1 ? writer.state.approach(writer.effect.joint)
+                                                        : writer.warming());
   }
   for (Node& node : result.formula) {
     if (node.primitive == Primitive::variable) node.variable = places.at(node.variable);

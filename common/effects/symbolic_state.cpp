@@ -1,6 +1,7 @@
 #include "effects/symbolic_state.hpp"
 
 #include <algorithm>
+#include <cstddef>
 
 namespace demecal::inline effects {
 namespace {
@@ -28,18 +29,18 @@ SymbolicFrame rotation(Algebra& algebra, const SymbolicVector& vector) {
   return result;
 }
 
-/// Mass, and its moment about the base's origin, of the links from a joint on.
+/// Mass, and its moment about the base's origin, of the payload and the links from a joint on.
 struct Beyond {
-  double mass_kg = 0.0;
+  Expression mass_kg;
   SymbolicVector moment_kg_m;
 };
 
 Beyond masses_beyond(const SymbolicState& state, int joint) {
   Algebra& algebra = state.algebra();
-  Beyond all{0.0, constant_vector(algebra, Eigen::Vector3d::Zero())};
+  Beyond all{state.payload_kg(), scaled(state.payload_kg(), state.payload_point)};
   for (std::size_t i = static_cast<std::size_t>(joint); i < state.robot->masses.size(); ++i) {
     const LinkMass& link = state.robot->masses[i];
-    all.mass_kg += link.mass_kg;
+    all.mass_kg = all.mass_kg + link.mass_kg;
     const SymbolicVector centre = state.links[i].point(constant_vector(algebra, link.centre_m));
     all.moment_kg_m = plus(all.moment_kg_m, scaled(algebra.constant(link.mass_kg), centre));
   }
@@ -54,9 +55,20 @@ const SymbolicFrame& joint_frame(const SymbolicState& state, int joint) {
 SymbolicVector moment(const SymbolicState& state, int joint, const Eigen::Vector3d& gravity_mps2) {
   Algebra& algebra = state.algebra();
   const Beyond all = masses_beyond(state, joint);
-  const SymbolicVector arm =
-      minus(all.moment_kg_m, scaled(algebra.constant(all.mass_kg), joint_frame(state, joint).origin));
+  const SymbolicVector arm = minus(all.moment_kg_m, scaled(all.mass_kg, joint_frame(state, joint).origin));
   return cross(arm, constant_vector(algebra, gravity_mps2));
+}
+
+/// The frame in which the link's transform `parameter` acts, from where the link begins.
+SymbolicFrame symbolic_frame_before(const SymbolicWriter& writer, LinkParameter parameter) {
+  const Chain& chain = writer.robot().chain;
+  const auto joint = static_cast<std::size_t>(writer.effect.joint);
+  SymbolicFrame frame(writer.state.algebra());
+  for (const Elementary& transform : elementary_transforms(chain.convention)) {
+    if (transform.parameter == parameter) break;
+    advance(frame, transform, elementary_value(chain.joints[joint], transform.parameter, writer.state.driven[joint]));
+  }
+  return frame;
 }
 
 }  // namespace
@@ -168,6 +180,7 @@ SymbolicState symbolic_state(Algebra& algebra, const Robot& robot, const std::ve
     state.links.push_back(frame);
   }
   state.places.push_back(frame * SymbolicFrame(algebra, robot.chain.flange));
+  state.payload_point = state.places.back().point(constant_vector(algebra, robot.chain.tool_m));
   return state;
 }
 
@@ -175,6 +188,14 @@ Expression effort(const SymbolicState& state, int joint, const Eigen::Vector3d& 
   const SymbolicVector& axis = joint_frame(state, joint).axes[2];
   if (is_revolute(state.robot->chain, joint)) return dot(axis, moment(state, joint, gravity_mps2));
   return masses_beyond(state, joint).mass_kg * dot(axis, constant_vector(state.algebra(), gravity_mps2));
+}
+
+Expression payload_torque(const SymbolicState& state, int joint) {
+  const SymbolicVector weight_n =
+      scaled(state.payload_kg(), constant_vector(state.algebra(), state.robot->gravity_mps2));
+  const SymbolicFrame& place = joint_frame(state, joint);
+  if (!is_revolute(state.robot->chain, joint)) return dot(place.axes[2], weight_n);
+  return dot(place.axes[2], cross(minus(state.payload_point, place.origin), weight_n));
 }
 
 SymbolicVector gravity_moment(const SymbolicState& state, int joint) {
@@ -205,6 +226,12 @@ Expression lever(const SymbolicState& state, int joint, const WeightPart& part, 
   return dot(axis, cross(arm, down));
 }
 
+Expression SymbolicWriter::warming() const {
+  const auto reference = effect.settings.find("reference_celsius");
+  if (reference == effect.settings.end()) return constant(0.0);
+  return state.algebra().symbol(kWarming) + (state.reference_celsius - reference->second);
+}
+
 void SymbolicWriter::append(int coefficient, int place, int axis, Expression size) {
   if (!size.is(0.0)) units.push_back({coefficient, place, axis, size});
 }
@@ -216,6 +243,20 @@ void SymbolicWriter::append_joint(int coefficient, Expression size) {
 void SymbolicWriter::append_wave(Expression angle) {
   append_joint(0, cosine(angle));
   append_joint(1, sine(angle));
+}
+
+void SymbolicWriter::append_link(int coefficient, LinkParameter parameter, Expression size) {
+  const auto& transforms = elementary_transforms(robot().chain.convention);
+  const Elementary transform = *std::ranges::find(transforms, parameter, &Elementary::parameter);
+  const SymbolicFrame seen =
+      seen_from(symbolic_frame_before(*this, LinkParameter::theta), symbolic_frame_before(*this, parameter));
+  const SymbolicVector& direction = seen.axes[static_cast<std::size_t>(transform.axis)];
+  const SymbolicVector shift = transform.rotates ? cross(seen.origin, direction) : direction;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    append(coefficient, effect.joint, axis, size * shift[i]);
+    if (transform.rotates) append(coefficient, effect.joint, 3 + axis, size * direction[i]);
+  }
 }
 
 void SymbolicWriter::append_rigid(int place, int count) {

@@ -14,6 +14,7 @@
 #include "effects/weight_parts.hpp"
 #include "kinematics/chain.hpp"
 #include "symbolic/algebra.hpp"
+#include "symbolic/code.hpp"
 #include "symbolic/parse_expression.hpp"
 
 namespace demecal::inline effects {
@@ -60,7 +61,7 @@ void advance(SymbolicFrame& frame, const Elementary& transform, Expression value
 using SymbolicMotion = std::vector<Expression>;
 SymbolicFrame moved(const SymbolicFrame& frame, const SymbolicMotion& motion);
 
-/// As ArmState, at a stop of which nothing is known but the joints: no payload, no approach, no warmth, no time.
+/// As ArmState, at any joints, payload, warmth and approach: symbols of code.hpp. Nothing is known of time and drives.
 struct SymbolicState {
   const Robot* robot;
   std::vector<Expression> joints;     ///< where an effect is taken: where the arm is, or within what was measured
@@ -68,17 +69,24 @@ struct SymbolicState {
   std::vector<SymbolicFrame> places;  ///< n + 1, base frame; of where the arm is
   std::vector<SymbolicFrame> links;   ///< n, base frame
   SymbolicVector tool_in_sensor;
+  SymbolicVector payload_point{};   ///< where the payload hangs, base frame
+  double reference_celsius = 20.0;  ///< above which warming counts; set by the caller
 
+  Expression payload_kg() const { return algebra().symbol(kPayload); }
+  /// Of the joint that counts from 0.
+  Expression approach(int which) const { return algebra().symbol(approach_symbol(which + 1)); }
   Algebra& algebra() const { return tool_in_sensor[0].algebra(); }
 };
 
 /// The state of the arm at the joints; its tool in the sensor's frame is set by the caller who knows it.
 SymbolicState symbolic_state(Algebra& algebra, const Robot& robot, const std::vector<Expression>& joints);
 
-/// Nm (revolute) or N (prismatic): what a gravity does to a joint through the masses of the links beyond.
+/// Nm (revolute) or N (prismatic): what a gravity does to a joint through the payload and the links beyond.
 Expression effort(const SymbolicState& state, int joint, const Eigen::Vector3d& gravity_mps2);
 /// The moment of gravity at the joint's place, in the axes of the place, Nm.
 SymbolicVector gravity_moment(const SymbolicState& state, int joint);
+/// As payload_torque() of numbers.
+Expression payload_torque(const SymbolicState& state, int joint);
 /// As lever_moment() of numbers.
 SymbolicVector lever_moment(const SymbolicState& state, int joint, const WeightPart& part);
 /// As lever() of numbers, under any gravity.
@@ -104,12 +112,16 @@ struct SymbolicWriter {
   Expression joint(int which) const { return state.joints[static_cast<std::size_t>(which)]; }
   Expression own_joint() const { return joint(effect.joint); }
   Expression torque(int which) const { return effort(state, which, robot().gravity_mps2); }
+  /// As warming_kelvin() of numbers.
+  Expression warming() const;
 
   void append(int coefficient, int place, int axis, Expression size);
   /// About the effect's joint, or along it where it is prismatic.
   void append_joint(int coefficient, Expression size);
   /// Cosine and sine of the angle, as motions of the effect's joint.
   void append_wave(Expression angle);
+  /// A change of a link parameter of the effect's joint: its transform's screw, seen from the joint's place.
+  void append_link(int coefficient, LinkParameter parameter, Expression size);
   /// The first `count` motions of a place, coefficient by coefficient.
   void append_rigid(int place, int count);
 };

@@ -12,6 +12,7 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
+#include "effects/symbolic_state.hpp"
 #include "kinematics/chain.hpp"
 
 namespace demecal::inline effects {
@@ -68,6 +69,11 @@ class ThermalLengthLaw final : public EffectLaw {
   }
   std::vector<std::string> settings() const override { return {"reference_celsius"}; }
   Circumstance prerequisite() const override { return Circumstance::temperature; }
+  void append_symbolic_motions(SymbolicWriter& writer) const override {
+    const Joint& link = link_of(writer.robot(), writer.effect);
+    writer.append_link(0, LinkParameter::d, link.d_m * writer.warming());
+    writer.append_link(0, LinkParameter::a, link.a_m * writer.warming());
+  }
 };
 
 /// A joint's zero that moves as the arm warms up.
@@ -104,6 +110,7 @@ class ThermalOffsetLaw final : public EffectLaw {
   std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& /*evidence*/) const override {
     return DecoyEffect{effect, DecoyKind::shuffled_temperature};
   }
+  void append_symbolic_motions(SymbolicWriter& writer) const override { writer.append_joint(0, writer.warming()); }
 };
 
 }  // namespace

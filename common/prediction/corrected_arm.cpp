@@ -8,16 +8,19 @@
 #include <map>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <span>
 #include <utility>
 
 #include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/law_terms.hpp"
 #include "expression/simplify.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "symbolic/calculus.hpp"
 
 namespace demecal::inline prediction {
 namespace {
@@ -92,8 +95,7 @@ std::string circumstances_needed(const Needs& needs) {
   return words;
 }
 
-/// A sentence on an effect that depends on more than the joints, as formulas hold it or (not `held`) leave it out;
-/// empty where they hold the whole of it.
+/// A sentence on an effect that formulas leave out (not `held`) or do not hold as it was measured; else empty.
 std::string note_on(const Effect& effect, const Robot& robot, bool held) {
   const std::string name =
       effect.kind + (effect.joint < 0 ? std::string() : " of joint " + std::to_string(effect.joint + 1));
@@ -102,12 +104,26 @@ std::string note_on(const Effect& effect, const Robot& robot, bool held) {
   if (!held) {
     return name + " is left out" + (words.empty() ? "" : ", for it depends on " + words) + '.';
   }
-  std::string note;
-  if (needs.approach || needs.temperature || needs.time) note = name + " is taken with s = 0 and T = 0.";
-  if (needs.torque) note = name + " is by the weight that the logged torques told of.";
-  if (law_of(effect).bears_payload(effect, robot))
-    note += (note.empty() ? "" : " ") + name + " is that of an arm that carries nothing.";
-  return note;
+  return needs.torque ? name + " is by the weight that the logged torques told of." : "";
+}
+
+/// On what the pose depends beside the joints; empty where on nothing.
+std::string circumstances_sentence(const CorrectedArm& arm) {
+  std::set<std::string> symbols;
+  for (const Expression term : terms_of(elements(arm.pose)))
+    if (term->kind == ExpressionKind::symbol) symbols.insert(term->name);
+  std::vector<std::string> words;
+  if (symbols.contains(kPayload)) words.push_back(std::string(kPayload) + " (carried at the tool point as described)");
+  if (symbols.contains(kWarming))
+    words.push_back(std::string(kWarming) + " (above " + number_text(arm.reference_celsius) + " degC)");
+  std::string sides;
+  for (std::size_t i = 1; i <= arm.actual.size(); ++i)
+    if (symbols.contains(approach_symbol(static_cast<int>(i))))
+      sides += (sides.empty() ? "" : ", ") + approach_symbol(static_cast<int>(i));
+  if (!sides.empty()) words.push_back(sides + " (the sign of the joint's last motion; 0 where it is not known)");
+  std::string all;
+  for (const std::string& one : words) all += (all.empty() ? "" : ", ") + one;
+  return all.empty() ? "" : "The pose depends also on " + all + "; left out, they are 0.";
 }
 
 }  // namespace
@@ -128,6 +144,12 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
     return arm;
   }
   SymbolicState state = symbolic_state(algebra, robot.described, commanded);
+  for (const Effect& effect : robot.effects) {
+    if (!effect.settings.contains("reference_celsius")) continue;
+    arm.reference_celsius = effect.setting("reference_celsius");
+    break;
+  }
+  state.reference_celsius = arm.reference_celsius;
   state.tool_in_sensor = without.origin;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
     const Effect& effect = robot.effects[i];
@@ -155,6 +177,9 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
           ? "The pose is the tool's in the frame of the arm's base as described, for where the base stands was not "
             "fitted; lengths in m, row by row."
           : "The pose is the tool's in the frame of the measurements, lengths in m, row by row.");
+  listing.reference_celsius = arm.reference_celsius;
+  const std::string more = circumstances_sentence(arm);
+  if (!more.empty()) listing.remarks.push_back(more);
   for (const std::string& note : arm.notes) listing.remarks.push_back("Note: " + note);
   return listing;
 }
@@ -167,117 +192,6 @@ Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const E
   nominal.tools[""] = tool;
   nominal.corrections.resize(nominal.chain.joints.size());
   return listing_of(corrected_arm(algebra, nominal, ""), nominal, "As described");
-}
-
-namespace {
-
-double width(const Interval& range) {
-  return range.upper - range.lower;
-}
-double middle(const Interval& range) {
-  return 0.5 * (range.lower + range.upper);
-}
-
-/// x^2 (3 - 2 x).
-Expression smooth_step(Expression x) {
-  return x * x * (3.0 - 2.0 * x);
-}
-
-/// One joint and the range in which the effect is known of it.
-struct RangedJoint {
-  int joint;
-  Interval range;
-  bool revolute;
-  Expression given;   ///< where the arm is
-  Expression value;   ///< the same, of a revolute joint by whole turns near the range's middle
-  Expression nearer;  ///< within the range
-  Expression beyond;  ///< how far outside, else 0
-};
-
-std::vector<RangedJoint> ranged_joints(const Effect& effect, const SymbolicState& state) {
-  std::vector<RangedJoint> all;
-  for (const auto& [joint, range] : effect.ranges) {
-    const Expression given = state.joints[static_cast<std::size_t>(joint)];
-    const bool revolute = is_revolute(state.robot->chain, joint);
-    const Expression value = revolute ? wrapped_near(given, middle(range)) : given;
-    const Expression beyond = larger(larger(range.lower - value, value - range.upper), state.algebra().constant(0.0));
-    all.push_back({joint, range, revolute, given, value, held_within(value, range), beyond});
-  }
-  return all;
-}
-
-/// Not negative where every joint is in its range as it stands.
-Expression inside(const std::vector<RangedJoint>& joints) {
-  const auto one = [](const RangedJoint& joint) {
-    return smaller(joint.given - joint.range.lower, joint.range.upper - joint.given);
-  };
-  Expression all = one(joints.front());
-  for (std::size_t i = 1; i < joints.size(); ++i) all = smaller(all, one(joints[i]));
-  return all;
-}
-
-struct SymbolicHeldState {
-  std::vector<Expression> joints;
-  Expression weight;
-};
-
-/// The weight of the end farther from the joint: none where the ends are no neighbours.
-Expression symbolic_weight_of_farther_end(const RangedJoint& joint) {
-  const double unmeasured = kTurn_rad - width(joint.range);
-  if (!joint.revolute || unmeasured <= 0.0) return joint.value.algebra().constant(0.0);
-  return smooth_step((1.0 / unmeasured) * joint.beyond);
-}
-
-Expression farther_end(const RangedJoint& joint) {
-  const Expression side = joint.value.algebra().function(Function::sign, {joint.value - middle(joint.range)});
-  return middle(joint.range) - 0.5 * width(joint.range) * side;
-}
-
-std::vector<SymbolicHeldState> symbolic_held_states(const SymbolicState& state, const std::vector<RangedJoint>& joints,
-                                                    bool fades) {
-  Algebra& algebra = state.algebra();
-  std::vector<SymbolicHeldState> all{{state.joints, algebra.constant(1.0)}};
-  for (const RangedJoint& joint : joints) {
-    const auto i = static_cast<std::size_t>(joint.joint);
-    // Ranges of a turn and more hold the same place twice; an arm within all of them is taken as it stands.
-    const bool wide = joint.revolute && width(joint.range) >= kTurn_rad;
-    const Expression near =
-        wide ? algebra.function(Function::if_not_negative, {inside(joints), joint.given, joint.nearer}) : joint.nearer;
-    const Expression weight = fades ? algebra.constant(0.0) : symbolic_weight_of_farther_end(joint);
-    const std::size_t known = all.size();
-    for (std::size_t k = 0; k < known; ++k) {
-      all[k].joints[i] = near;
-      if (weight.is(0.0)) continue;
-      SymbolicHeldState far{all[k].joints, all[k].weight * weight};
-      far.joints[i] = farther_end(joint);
-      all[k].weight = all[k].weight * (1.0 - weight);
-      all.push_back(std::move(far));
-    }
-  }
-  return all;
-}
-
-}  // namespace
-
-std::vector<SymbolicUnit> held_units(const Effect& effect, const SymbolicState& state, const std::string& name) {
-  if (effect.ranges.empty()) return symbolic_units(effect, state, name);
-  Algebra& algebra = state.algebra();
-  const bool fades = law_of(effect).fades(effect);
-  const std::vector<RangedJoint> joints = ranged_joints(effect, state);
-  Expression share = algebra.constant(1.0);
-  for (const RangedJoint& joint : joints) {
-    if (fades) share = share * smooth_step(larger(algebra.constant(0.0), 1.0 - (1.0 / kFade) * joint.beyond));
-  }
-  std::vector<SymbolicUnit> all;
-  for (const SymbolicHeldState& anchor : symbolic_held_states(state, joints, fades)) {
-    SymbolicState held = state;
-    held.joints = anchor.joints;
-    for (SymbolicUnit unit : symbolic_units(effect, held, name)) {
-      unit.size = share * anchor.weight * unit.size;
-      all.push_back(unit);
-    }
-  }
-  return all;
 }
 
 }  // namespace demecal::inline prediction

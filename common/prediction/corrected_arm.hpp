@@ -19,12 +19,13 @@ namespace demecal::inline prediction {
 /// The formulas, and what the model knows beyond them.
 struct CorrectedArm {
   std::vector<Expression> actual;  ///< q + g(q) of each joint, of the symbol q1 .. qn
-  SymbolicMatrix pose;             ///< of the tool in the measurements' frame, of q1 .. qn and actual1 .. actualn
-  std::vector<std::string> notes;  ///< sentences: effects that are left out, or taken at some circumstance
+  SymbolicMatrix pose;  ///< of the tool in the measurements' frame, of q1 .. qn, actual1 .. actualn and circumstances
+  std::vector<std::string> notes;   ///< sentences: effects that are left out, or not held as they were measured
+  double reference_celsius = 20.0;  ///< above which kWarming counts: that of the model's first effect of warmth
 };
 
-/// The model's prediction at a stop of which nothing but the joints is known: no payload, no approach, no warmth and no
-/// time. The expressions live in `algebra`. The robot must have the target.
+/// The model's prediction at any stop, of which neither the time nor the drives' torques are known: circumstances are
+/// the symbols of Listing. The expressions live in `algebra`. The robot must have the target.
 CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target);
 
 /// Whose frame poses stand in: of a model whose base was not fitted, as from contacts, that of the arm's own base.

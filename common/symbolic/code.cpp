@@ -9,51 +9,10 @@
 
 #include "symbolic/calculus.hpp"
 #include "symbolic/printing.hpp"
+#include "symbolic/support_functions.hpp"
 
 namespace demecal::inline symbolic {
 namespace {
-
-struct SupportFunction {
-  Function function;
-  const char *c, *python, *matlab;
-};
-
-const std::vector<SupportFunction>& support_functions() {
-  static const std::vector<SupportFunction> all{
-      {Function::sign, "static double sign_of(double x) { return x > 0.0 ? 1.0 : (x < 0.0 ? -1.0 : x); }\n",
-       "def sign_of(x):\n    return 1.0 if x > 0.0 else (-1.0 if x < 0.0 else x)\n", ""},
-      {Function::round, "", "def round_away(x):\n    return math.floor(x + 0.5) if x >= 0.0 else math.ceil(x - 0.5)\n",
-       ""},
-      {Function::divide_or_one, "static double divide_or_one(double a, double b) { return b == 0.0 ? 1.0 : a / b; }\n",
-       "def divide_or_one(a, b):\n    return 1.0 if b == 0.0 else a / b\n",
-       "function x = divide_or_one(a, b)\n  if b == 0\n    x = 1;\n  else\n    x = a/b;\n  end\nend\n"},
-      {Function::divide_or_zero,
-       "static double divide_or_zero(double a, double b) { return b == 0.0 ? 0.0 : a / b; }\n",
-       "def divide_or_zero(a, b):\n    return 0.0 if b == 0.0 else a / b\n",
-       "function x = divide_or_zero(a, b)\n  if b == 0\n    x = 0;\n  else\n    x = a/b;\n  end\nend\n"},
-      {Function::if_not_negative,
-       "static double if_not_negative(double c, double a, double b) { return c >= 0.0 ? a : b; }\n",
-       "def if_not_negative(c, a, b):\n    return a if c >= 0.0 else b\n",
-       "function x = if_not_negative(c, a, b)\n  if c >= 0\n    x = a;\n  else\n    x = b;\n  end\nend\n"},
-      {Function::logarithm_or_zero,
-       "static double logarithm_or_zero(double x) { return x == 0.0 ? 0.0 : log(fabs(x)); }\n",
-       "def logarithm_or_zero(x):\n    return 0.0 if x == 0.0 else math.log(abs(x))\n",
-       "function x = logarithm_or_zero(a)\n  if a == 0\n    x = 0;\n  else\n    x = log(abs(a));\n  end\nend\n"},
-      {Function::bounded_exponential,
-       "static double bounded_exponential(double x) { return exp(x > 16.0 ? 16.0 : (x < -16.0 ? -16.0 : x)); }\n",
-       "def bounded_exponential(x):\n    return math.exp(16.0 if x > 16.0 else (-16.0 if x < -16.0 else x))\n",
-       "function x = bounded_exponential(a)\n  if a > 16\n    a = 16;\n  end\n  if a < -16\n    a = -16;\n  end\n"
-       "  x = exp(a);\nend\n"},
-      {Function::square, "static double square(double x) { return x*x; }\n", "def square(x):\n    return x*x\n",
-       "function x = square(a)\n  x = a*a;\nend\n"},
-      {Function::lesser, "static double lesser_of(double a, double b) { return a < b || a != a ? a : b; }\n",
-       "def lesser_of(a, b):\n    return a if a < b or a != a else b\n",
-       "function x = lesser_of(a, b)\n  if a < b || isnan(a)\n    x = a;\n  else\n    x = b;\n  end\nend\n"},
-      {Function::greater, "static double greater_of(double a, double b) { return a > b || a != a ? a : b; }\n",
-       "def greater_of(a, b):\n    return a if a > b or a != a else b\n",
-       "function x = greater_of(a, b)\n  if a > b || isnan(a)\n    x = a;\n  else\n    x = b;\n  end\nend\n"}};
-  return all;
-}
 
 /// Names of a formula's variables: theta of one, x1 .. xk of more.
 std::vector<std::string> variables_of(const ExpressionNode& formula) {
@@ -122,6 +81,11 @@ class CodeFile {
     return std::ranges::any_of(
         terms_of(pose_), [&](Expression term) { return term->kind == ExpressionKind::symbol && term->name == symbol; });
   }
+  bool has_circumstances() const { return listing_.reference_celsius.has_value(); }
+  std::string circumstances_in_c() const;
+  /// Names of the circumstances that the pose refers to, and where the language has them.
+  std::string circumstances(const std::string& before, const std::string& scalars, const std::string& signs,
+                            const std::string& after, int first) const;
   /// Assignments of steps, each with what stands before and after it.
   static std::string assignments(const Steps& steps, const std::string& before, const std::string& after) {
     std::string all;
@@ -154,6 +118,30 @@ std::string CodeFile::equations() {
   return out.str();
 }
 
+std::string CodeFile::circumstances(const std::string& before, const std::string& scalars, const std::string& signs,
+                                    const std::string& after, int first) const {
+  std::string all;
+  for (const char* name : {kPayload, kWarming})
+    if (!scalars.empty() && pose_uses(name)) all.append(before).append(name).append(" = " + scalars + name + after);
+  for (std::size_t i = 0; i < joints(); ++i) {
+    const std::string name = approach_symbol(static_cast<int>(i + 1));
+    const auto index = std::to_string(static_cast<int>(i) + first);
+    if (pose_uses(name)) all += before + name + " = " + signs + index + (first == 0 ? "]" : ")") + after;
+  }
+  return all;
+}
+
+std::string CodeFile::circumstances_in_c() const {
+  std::ostringstream out;
+  out << "/* What the pose depends on beside the joints. All of it 0: nothing carried, no warmer, last motions not "
+         "known. */\n"
+      << "struct circumstances {\n  double payload_kg; /* carried at the tool point as described */\n"
+      << "  double warming_kelvin; /* above " << printer_.number(*listing_.reference_celsius) << " degC */\n"
+      << "  double approach[" << joints()
+      << "]; /* the sign of each joint's last motion, 1 or -1; 0: not known, the middle is taken */\n};\n\n";
+  return out.str();
+}
+
 std::string CodeFile::c() {
   std::ostringstream out;
   out << remarks("// ") << "#include <math.h>\n\n" << support_functions_in(&SupportFunction::c);
@@ -166,7 +154,14 @@ std::string CodeFile::c() {
     out << "double h" << number_of(i) << "(double q" << number_of(i) << ") {\n"
         << assignments(steps, "  const double ", ";\n") << "  return " << steps.results[0] << ";\n}\n\n";
   }
-  out << "void forward(const double q[" << joints() << "], double pose[16]) {\n";
+  const std::string arguments = "const double q[" + std::to_string(joints()) + "], double pose[16]) {\n";
+  if (has_circumstances()) {
+    const std::string read = circumstances("  const double ", "at->", "at->approach[", ";\n", 0);
+    out << circumstances_in_c() << "void forward_at(const struct circumstances* at, " << arguments
+        << (read.empty() ? "  (void)at;\n" : read);
+  } else {
+    out << "void forward(" << arguments;
+  }
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i), index = std::to_string(i);
     if (pose_uses('q' + number)) out << "  const double q" << number << " = q[" << index << "];\n";
@@ -177,6 +172,9 @@ std::string CodeFile::c() {
   out << assignments(steps, "  const double ", ";\n");
   for (std::size_t i = 0; i < pose_.size(); ++i) out << "  pose[" << i << "] = " << steps.results[i] << ";\n";
   out << "}\n";
+  if (has_circumstances())
+    out << "\nvoid forward(" << arguments
+        << "  const struct circumstances none = {0};\n  forward_at(&none, q, pose);\n}\n";
   return out.str();
 }
 
@@ -196,7 +194,10 @@ std::string CodeFile::python() {
     out << "def h" << number_of(i) << "(q" << number_of(i) << "):\n"
         << assignments(steps, "    ", "\n") << "    return " << steps.results[0] << "\n\n\n";
   }
-  out << "def forward(q):\n";
+  out << "def forward(q" << (has_circumstances() ? ", payload_kg=0.0, warming_kelvin=0.0, approach=None" : "")
+      << "):\n";
+  const std::string signs = circumstances("    ", "", "approach[", "\n", 0);
+  if (!signs.empty()) out << "    approach = approach or [0.0]*" << joints() << '\n' << signs;
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i), index = std::to_string(i);
     if (pose_uses('q' + number)) out << "    q" << number << " = q[" << index << "]\n";
@@ -214,7 +215,17 @@ std::string CodeFile::python() {
 
 std::string CodeFile::matlab() {
   std::ostringstream out;
-  out << "function [pose, h] = forward(q)\n" << remarks("% ");
+  out << "function [pose, h] = forward(q" << (has_circumstances() ? ", payload_kg, warming_kelvin, approach" : "")
+      << ")\n"
+      << remarks("% ");
+  if (has_circumstances()) {
+    const std::string zeros = "zeros(1, " + std::to_string(joints()) + ")";
+    const std::vector<std::pair<std::string, std::string>> defaults{
+        {kPayload, "0"}, {kWarming, "0"}, {"approach", zeros}};
+    for (std::size_t i = 0; i < defaults.size(); ++i)
+      out << "  if nargin < " << i + 2 << "\n    " << defaults[i].first << " = " << defaults[i].second << ";\n  end\n";
+    out << circumstances("  ", "", "approach(", ";\n", 1);
+  }
   std::vector<std::string> actual;
   for (std::size_t i = 0; i < joints(); ++i) {
     const std::string number = number_of(i);
@@ -248,6 +259,9 @@ std::string commanded_joint(int joint) {
 }
 std::string actual_joint(int joint) {
   return "actual" + std::to_string(joint);
+}
+std::string approach_symbol(int joint) {
+  return "approach" + std::to_string(joint);
 }
 
 Listing derivative(const Listing& listing, int joint) {

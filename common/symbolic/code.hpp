@@ -1,6 +1,7 @@
 // A corrected arm as a file of formulas or code that stands by itself.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,18 +17,26 @@ struct Listing {
   std::vector<std::string> remarks;  ///< lines of comment at the head
   std::vector<Expression> actual;
   SymbolicMatrix pose;
+  /// Where it is set, pose may refer also to kPayload, kWarming (above so many degC) and the approach of every joint,
+  /// which are then arguments of `forward`; 0 where they are left out.
+  std::optional<double> reference_celsius{};
 };
 
 /// "q1" and "actual1" of the joint that counts from 1.
 std::string commanded_joint(int joint);
 std::string actual_joint(int joint);
 
+/// What is carried at the tool point as described (kg); how much warmer than the listing's reference the arm is (K).
+inline constexpr const char *kPayload = "payload_kg", *kWarming = "warming_kelvin";
+/// "approach1" of the joint that counts from 1: the sign of its last motion, 0 where it is not known.
+std::string approach_symbol(int joint);
+
 /// The listing whose pose is the derivative of this one's by a joint's command; joints count from 1.
 Listing derivative(const Listing& listing, int joint);
 
 /// The text of the file: functions h1 .. hn of a joint's command and forward of all of them, which gives the pose row
 /// by row (C: 16 numbers, Python: four lists, MATLAB: a matrix, and h beside it); as text, equations. What expressions
-/// share is computed once, in t1, t2 ...
+/// share is computed once, in t1, t2 ... In C what the pose depends on beside joints is the argument of forward_at.
 std::string code_of(const Listing& listing, CodeLanguage language);
 
 /// What follows an arm's listing in C: functions `inverse` (a pose of the tool to the joints to command) and

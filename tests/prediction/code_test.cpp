@@ -1,63 +1,27 @@
 // The files that are handed on compile by themselves and give the model's own predictions.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <array>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <regex>
 #include <sstream>
 
+#include "compiled_code.hpp"
 #include "kinematics/forward.hpp"
 #include "prediction/corrected_arm.hpp"
 #include "prediction/random_effects.hpp"
+#include "stop_at.hpp"
 
 namespace demecal {
 namespace {
 
-/// A folder of this test that is gone afterwards.
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / ("demecal-code-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return path_ / name;
-  }
-  std::string path(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
-/// What the command printed; its exit code in `code`.
-std::string output_of(const std::string& command, int& code) {
-  std::string text;
-  FILE* const pipe = ::popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> chunk;
-  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), pipe)) text.append(chunk.data(), count);
-  code = ::pclose(pipe);
-  return text;
-}
-
-bool there_is(const std::string& program) {
-  int code = 0;
-  output_of("command -v " + program, code);
-  return code == 0;
-}
-
 /// An arm with everything that formulas can hold, and the stops at which it is judged.
 struct Judged {
   CorrectedRobot robot;
-  std::vector<JointVector> stops;
+  std::vector<Stop> stops;
+  double reference_celsius = 0.0;  ///< above which the code counts warmth
+
+  double warming(const Stop& stop) const { return *stop.temperature_celsius - reference_celsius; }
 };
 
 Judged judged_arm() {
@@ -79,7 +43,9 @@ Judged judged_arm() {
       "0.0003 * SQUARE(theta - 0.5) + MIN(0.001 * theta, 0.0005) * MAX(SIN(theta), -0.25) + EXPb(900 * theta - 930)");
   judged.robot.corrections[2] = {later, {true, 0.0}, {-4.0, 4.0}};
   judged.robot.corrections[1] = {};
-  for (int i = 0; i < 40; ++i) judged.stops.push_back(1.5 * random_joints(stream, nominal));
+  for (int i = 0; i < 40; ++i) judged.stops.push_back(stop_at(stream, nominal, 1.5 * random_joints(stream, nominal)));
+  Algebra algebra;
+  judged.reference_celsius = corrected_arm(algebra, judged.robot, "").reference_celsius;
   return judged;
 }
 
@@ -98,9 +64,9 @@ std::string numbers(const JointVector& q, const std::string& between) {
 /// Per stop: 16 numbers of the pose, and each joint's h.
 void expect_agreement(const Judged& judged, const std::string& printed) {
   std::istringstream in(printed);
-  for (const JointVector& q : judged.stops) {
-    const Eigen::Matrix4d pose = judged.robot.predict(Stop(q), "").matrix();
-    const JointVector actual = judged.robot.corrected_joints(q);
+  for (const Stop& stop : judged.stops) {
+    const Eigen::Matrix4d pose = judged.robot.predict(stop, "").matrix();
+    const JointVector actual = judged.robot.corrected_joints(stop.joints);
     for (int i = 0; i < 16; ++i) {
       double value = 0.0;
       ASSERT_TRUE(in >> value) << printed;
@@ -119,17 +85,22 @@ TEST(Code, InCCompilesWithoutWarningsAndAgreesWithTheModel) {
   const Judged judged = judged_arm();
   const auto n = static_cast<std::size_t>(judged.robot.chain.size());
   std::ostringstream main;
-  main << "#include <stdio.h>\nvoid forward(const double q[" << n << "], double pose[16]);\n";
+  main << "#include <stdio.h>\nstruct circumstances { double payload_kg, warming_kelvin, approach[" << n
+       << "]; };\nvoid forward_at(const struct circumstances* at, const double q[" << n << "], double pose[16]);\n";
   for (std::size_t i = 1; i <= n; ++i) main << "double h" << i << "(double q);\n";
   main << "static const double stops[][" << n << "] = {";
-  for (const JointVector& q : judged.stops) main << '{' << numbers(q, ",") << "},\n";
+  for (const Stop& stop : judged.stops) main << '{' << numbers(stop.joints, ",") << "},\n";
+  main << "};\nstatic const struct circumstances at[] = {";
+  for (const Stop& stop : judged.stops)
+    main << std::setprecision(17) << '{' << stop.payload_kg << ',' << judged.warming(stop) << ",{"
+         << numbers(stop.approach, ",") << "}},\n";
   main << "};\nint main(void) {\n  for (int i = 0; i < " << judged.stops.size() << "; ++i) {\n"
-       << "    double pose[16];\n    forward(stops[i], pose);\n"
+       << "    double pose[16];\n    forward_at(at + i, stops[i], pose);\n"
        << "    for (int k = 0; k < 16; ++k) printf(\"%.17g \", pose[k]);\n";
   for (std::size_t i = 0; i < n; ++i) main << "    printf(\"%.17g\\n\", h" << i + 1 << "(stops[i][" << i << "]));\n";
   main << "  }\n  return 0;\n}\n";
 
-  const Folder folder;
+  const CodeFolder folder;
   const std::string arm = folder.write("arm.c", code_in(judged.robot, CodeLanguage::c));
   const std::string program = folder.path("program");
   int code = 0;
@@ -150,20 +121,25 @@ TEST(Code, InCInvertsTheModel) {
     robot.effects = random_effects(robot.described, stream, 5e-4, 1);
     robot.corrections.assign(nominal.joints.size(), {});
     constexpr int kStops = 200;
-    std::vector<JointVector> stops;
-    for (int i = 0; i < kStops; ++i) stops.push_back(random_joints(stream, nominal));
+    Judged judged{robot, {}};
+    for (int i = 0; i < kStops; ++i) judged.stops.push_back(stop_at(stream, nominal, random_joints(stream, nominal)));
+    Algebra algebra;
+    judged.reference_celsius = corrected_arm(algebra, robot, "").reference_celsius;
     const std::string n = std::to_string(joints);
     std::ostringstream main;
-    main << "#include <stdio.h>\ndouble corrected(const double nominal[" << n << "], double command[" << n
-         << "]);\nstatic const double stops[][" << n << "] = {";
-    for (const JointVector& q : stops) main << '{' << numbers(q, ",") << "},\n";
+    main << "#include <stdio.h>\nstruct circumstances { double payload_kg, warming_kelvin, approach[" << n
+         << "]; };\ndouble corrected_at(const struct circumstances* at, const double nominal[" << n
+         << "], double command[" << n << "]);\nstatic const double stops[][" << n << "] = {" << std::setprecision(17);
+    for (const Stop& stop : judged.stops) main << '{' << numbers(stop.joints, ",") << "},\n";
+    main << "};\nstatic const struct circumstances at[] = {";
+    for (const Stop& stop : judged.stops)
+      main << '{' << stop.payload_kg << ',' << judged.warming(stop) << ",{" << numbers(stop.approach, ",") << "}},\n";
     main << "};\nint main(void) {\n  for (int i = 0; i < " << kStops << "; ++i) {\n    double command[" << n
-         << "];\n    printf(\"%.17g\", corrected(stops[i], command));\n    for (int k = 0; k < " << n
+         << "];\n    printf(\"%.17g\", corrected_at(at + i, stops[i], command));\n    for (int k = 0; k < " << n
          << "; ++k) printf(\" %.17g\", command[k]);\n    printf(\"\\n\");\n  }\n  return 0;\n}\n";
-    Algebra algebra;
     const std::string code =
         code_in(robot, CodeLanguage::c) + inverse_in_c(described_listing(algebra, robot, robot.tool("")));
-    const Folder folder;
+    const CodeFolder folder;
     const std::string program = folder.path("inverse");
     int failed = 0;
     const std::string said =
@@ -171,26 +147,21 @@ TEST(Code, InCInvertsTheModel) {
                       folder.write("arm.c", code) + ' ' + folder.write("main.c", main.str()) + " -lm",
                   failed);
     ASSERT_EQ(failed, 0) << said;
-    CorrectedRobot known = robot;  // what formulas hold: effects that depend on more than joints are left out
-    std::erase_if(known.effects, [&](const Effect& effect) {
-      const Needs needs = law_of(effect).needs(effect, robot.described);
-      return needs.approach || needs.payload || needs.temperature || needs.time;
-    });
     std::istringstream printed(output_of(program, failed));
     int reached = 0;
-    for (const JointVector& stop : stops) {
+    for (const Stop& stop : judged.stops) {
       double left = 0.0;
       ASSERT_TRUE(printed >> left);
       JointVector command(joints);
       for (double& value : command) ASSERT_TRUE(printed >> value);
       if (left > 1e-6) continue;
       ++reached;
-      const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, stop) * robot.tool("");
-      const Eigen::Isometry3d there = known.predict(Stop(command), "");
+      const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, stop.joints) * robot.tool("");
+      const Eigen::Isometry3d there = robot.predict(stop.with_joints(command), "");
       EXPECT_LT((there.translation() - goal.translation()).norm(), 1.1e-6);
       EXPECT_LT((there.linear() - goal.linear()).norm(), 1e-5);
     }
-    EXPECT_GE(reached, kStops * 97 / 100) << joints << " joints: others are near singular";
+    EXPECT_GE(reached, kStops * 8 / 10) << joints << " joints: others are near singular";
   }
 }
 
@@ -198,11 +169,13 @@ TEST(Code, InPythonAgreesWithTheModel) {
   if (!there_is("python3")) GTEST_SKIP() << "there is no python3";
   const Judged judged = judged_arm();
   std::ostringstream main;
-  main << "import arm\nfor q in [";
-  for (const JointVector& q : judged.stops) main << '[' << numbers(q, ", ") << "],\n";
-  main << "]:\n    print(*(x for row in arm.forward(q) for x in row))\n"
+  main << "import arm\nfor q, payload, warming, approach in [" << std::setprecision(17);
+  for (const Stop& stop : judged.stops)
+    main << "([" << numbers(stop.joints, ", ") << "], " << stop.payload_kg << ", " << judged.warming(stop) << ", ["
+         << numbers(stop.approach, ", ") << "]),\n";
+  main << "]:\n    print(*(x for row in arm.forward(q, payload, warming, approach) for x in row))\n"
        << "    print(*(getattr(arm, 'h%d' % (i + 1))(x) for i, x in enumerate(q)))\n";
-  const Folder folder;
+  const CodeFolder folder;
   folder.write("arm.py", code_in(judged.robot, CodeLanguage::python));
   int code = 0;
   const std::string printed = output_of("python3 -B " + folder.write("main.py", main.str()), code);
@@ -214,10 +187,12 @@ TEST(Code, InMatlabAgreesWithTheModelWhereOctaveRunsIt) {
   if (!there_is("octave")) GTEST_SKIP() << "there is no octave";
   const Judged judged = judged_arm();
   std::ostringstream main;
-  main << "for q = [";
-  for (const JointVector& q : judged.stops) main << numbers(q, ", ") << '\n';
-  main << "]'\n  [pose, h] = forward(q);\n  printf('%.17g ', pose', h);\nend\n";
-  const Folder folder;
+  main << "for q = [" << std::setprecision(17);
+  for (const Stop& stop : judged.stops)
+    main << numbers(stop.joints, ", ") << ", " << stop.payload_kg << ", " << judged.warming(stop) << ", "
+         << numbers(stop.approach, ", ") << '\n';
+  main << "]'\n  [pose, h] = forward(q(1:5), q(6), q(7), q(8:12));\n  printf('%.17g ', pose', h);\nend\n";
+  const CodeFolder folder;
   folder.write("forward.m", code_in(judged.robot, CodeLanguage::matlab));
   folder.write("judge.m", main.str());
   int code = 0;
@@ -244,8 +219,8 @@ TEST(Code, InMatlabHasWholeStatementsAndCallsOnlyWhatIsThere) {
   EXPECT_EQ(count(code, "\n *end(?=\n)"), count(code, "(^|\n)function ") + count(code, "\n *if "));
   const std::string without_remarks = std::regex_replace(code, std::regex("%[^\n]*"), "");
   const std::regex called(R"(([A-Za-z_]\w*)\()");
-  std::set<std::string> known{"sin", "cos",   "tanh", "sign", "abs",  "sqrt", "round", "min",
-                              "max", "zeros", "q",    "pose", "atan", "log",  "exp",   "isnan"};
+  std::set<std::string> known{"sin",   "cos", "tanh", "sign", "abs", "sqrt", "round", "min",     "max",
+                              "zeros", "q",   "pose", "atan", "log", "exp",  "isnan", "approach"};
   const std::regex defined(R"(function \S+(?: h\])? = (\w+)\()");
   for (std::sregex_iterator it(code.begin(), code.end(), defined), end; it != end; ++it) {
     known.insert((*it)[1]);

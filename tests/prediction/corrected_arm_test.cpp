@@ -6,6 +6,7 @@
 
 #include "effects/symbolic_state.hpp"
 #include "prediction/random_effects.hpp"
+#include "stop_at.hpp"
 #include "symbolic/calculus.hpp"
 
 namespace demecal {
@@ -15,8 +16,12 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
 /// The pose by the formulas, corrections first.
-Eigen::Matrix4d pose_at(const CorrectedArm& arm, const JointVector& q) {
-  SymbolValues at;
+Eigen::Matrix4d pose_at(const CorrectedArm& arm, const Stop& stop) {
+  const JointVector& q = stop.joints;
+  SymbolValues at{{kPayload, stop.payload_kg},
+                  {kWarming, stop.temperature_celsius ? *stop.temperature_celsius - arm.reference_celsius : 0.0}};
+  for (Eigen::Index i = 0; i < q.size(); ++i)
+    at[approach_symbol(static_cast<int>(i + 1))] = stop.approach.size() > 0 ? stop.approach[i] : 0.0;
   for (Eigen::Index i = 0; i < q.size(); ++i) at[commanded_joint(static_cast<int>(i + 1))] = q[i];
   const std::vector<double> actual = values_of(arm.actual, at);
   for (std::size_t i = 0; i < actual.size(); ++i) at[actual_joint(static_cast<int>(i + 1))] = actual[i];
@@ -29,8 +34,8 @@ double farthest(const CorrectedRobot& robot, const std::string& target, RandomSt
   const CorrectedArm arm = corrected_arm(algebra, robot, target);
   double most = 0.0;
   for (int i = 0; i < 30; ++i) {
-    const JointVector q = reach * random_joints(stream, robot.chain);
-    most = std::max(most, (pose_at(arm, q) - robot.predict(Stop(q), target).matrix()).cwiseAbs().maxCoeff());
+    const Stop stop = stop_at(stream, robot.chain, reach * random_joints(stream, robot.chain));
+    most = std::max(most, (pose_at(arm, stop) - robot.predict(stop, target).matrix()).cwiseAbs().maxCoeff());
   }
   return most;
 }
@@ -109,7 +114,7 @@ TEST(CorrectedArm, DifferentiatesByEveryJointAsDifferencesDo) {
   }
 }
 
-TEST(CorrectedArm, NotesWhatDependsOnMoreThanTheJoints) {
+TEST(CorrectedArm, SaysOnWhatItDependsBesideTheJointsAndWhatItLeavesOut) {
   RandomStream stream{634};
   const Chain nominal = mounted_arm(stream, 3, Convention::standard_dh);
   CorrectedRobot robot = random_robot(stream, nominal, 1e-3, 1e-3);
@@ -122,11 +127,13 @@ TEST(CorrectedArm, NotesWhatDependsOnMoreThanTheJoints) {
       {.kind = "compliance", .joint = 1, .settings = {}, .form = "masses", .formula = {}, .values = {1e-6}},
       {.kind = "drift", .joint = -1, .settings = {{"reference_time_s", 0.0}}}};
   const CorrectedArm arm = corrected_arm(algebra, robot, "");
-  ASSERT_EQ(arm.notes.size(), 3u);
-  EXPECT_EQ(arm.notes[0], "backlash of joint 2 is left out, for it depends on the side from which joints come.");
-  EXPECT_EQ(arm.notes[1], "compliance of joint 2 is that of an arm that carries nothing.");
-  EXPECT_THAT(arm.notes[2], HasSubstr("drift is left out, for it depends on the time"));
-  EXPECT_THAT(code_of(listing_of(arm, robot, "title"), CodeLanguage::c), HasSubstr("// Note: " + arm.notes[0]));
+  ASSERT_EQ(arm.notes.size(), 1u);
+  EXPECT_EQ(arm.notes[0], "drift is left out, for it depends on the time.");
+  const std::string code = code_of(listing_of(arm, robot, "title"), CodeLanguage::c);
+  EXPECT_THAT(code, HasSubstr("// Note: " + arm.notes[0]));
+  EXPECT_THAT(code,
+              HasSubstr("// The pose depends also on payload_kg (carried at the tool point as described), approach2 "
+                        "(the sign of the joint's last motion; 0 where it is not known); left out, they are 0."));
 }
 
 TEST(CorrectedArm, SaysInWhichFrameItsPoseIs) {
