@@ -140,45 +140,6 @@ double median_step_s(const CsvTable& table, std::size_t column) {
   return steps[steps.size() / 2];
 }
 
-/// The column's fields, where they are texts that differ and not numbers alone; otherwise nothing.
-std::set<std::string> names_in(const CsvTable& table, std::size_t column) {
-  std::set<std::string> names;
-  bool numbers = true;
-  for (const CsvRow& row : table.rows) {
-    const std::string& field = row.fields[column];
-    if (field.empty() || !names.insert(field).second) return {};
-    numbers = numbers && parse_number(field).has_value();
-  }
-  return numbers ? std::set<std::string>{} : names;
-}
-
-/// Whether most of the fewer names are among the others.
-bool match(const std::set<std::string>& some, const std::set<std::string>& others) {
-  const std::set<std::string>&fewer = some.size() < others.size() ? some : others,
-        &more = &fewer == &some ? others : some;
-  const auto shared = std::ranges::count_if(fewer, [&more](const std::string& name) { return more.contains(name); });
-  return !fewer.empty() && 2 * static_cast<std::size_t>(shared) > fewer.size();
-}
-
-/// Columns that hold the same names in all tables name the points, whatever they are called.
-void find_names(std::vector<GivenTable>& tables) {
-  const auto is_named = [](const GivenTable& given) { return given.columns.pose.has_value(); };
-  if (tables.size() < 2 || std::ranges::all_of(tables, is_named)) return;
-  const CsvTable& first = tables.front().read.table;
-  for (std::size_t column = 0; column < first.columns.size(); ++column) {
-    const std::set<std::string> names = names_in(first, column);
-    std::vector<std::size_t> columns{column};
-    for (std::size_t other = 1; other < tables.size() && !names.empty(); ++other) {
-      const CsvTable& table = tables[other].read.table;
-      for (std::size_t at = 0; at < table.columns.size() && columns.size() <= other; ++at)
-        if (match(names, names_in(table, at))) columns.push_back(at);
-    }
-    if (columns.size() != tables.size()) continue;
-    for (std::size_t i = 0; i < tables.size(); ++i) tables[i].columns.pose = columns[i];
-    return;
-  }
-}
-
 std::vector<JoinDraft> possible_joins(const std::vector<GivenTable>& tables) {
   if (tables.size() == 1) return {{"", ""}};
   const auto all_have = [&](auto member) {
@@ -238,7 +199,6 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
                                           std::size_t joints, const ToldLayout& told) {
   std::vector<GivenTable> tables = given_tables;
   std::vector<std::string> assumed;
-  find_names(tables);
   keep_one_source(tables, &GuessedColumns::joints, assumed, "joints");
   keep_one_source(tables, &GuessedColumns::position, assumed, "positions");
   keep_one_source(tables, &GuessedColumns::orientation, assumed, "orientations");

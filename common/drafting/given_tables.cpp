@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "data/csv.hpp"
 #include "data/data_set.hpp"
 #include "data/read_poses.hpp"
+#include "data/text.hpp"
 #include "drafting/draft_data_set.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
@@ -20,6 +22,48 @@
 #include "yaml/files.hpp"
 
 namespace demecal::inline drafting {
+namespace {
+
+/// The column's fields, where they are texts that differ and not numbers alone; otherwise nothing.
+std::set<std::string> point_names(const CsvTable& table, std::size_t column) {
+  std::set<std::string> names;
+  bool numbers = true;
+  for (const CsvRow& row : table.rows) {
+    const std::string& field = row.fields[column];
+    if (field.empty() || !names.insert(field).second) return {};
+    numbers = numbers && parse_number(field).has_value();
+  }
+  return numbers ? std::set<std::string>{} : names;
+}
+
+/// Whether most of the fewer names are among the others.
+bool names_match(const std::set<std::string>& some, const std::set<std::string>& others) {
+  const std::set<std::string>&fewer = some.size() < others.size() ? some : others,
+        &more = &fewer == &some ? others : some;
+  const auto shared = std::ranges::count_if(fewer, [&more](const std::string& name) { return more.contains(name); });
+  return !fewer.empty() && 2 * static_cast<std::size_t>(shared) > fewer.size();
+}
+
+/// Columns that hold the same names in all tables name the points, whatever they are called.
+void find_names(std::vector<GivenTable>& tables) {
+  const auto is_named = [](const GivenTable& given) { return given.columns.pose.has_value(); };
+  if (tables.size() < 2 || std::ranges::all_of(tables, is_named)) return;
+  const CsvTable& first = tables.front().read.table;
+  for (std::size_t column = 0; column < first.columns.size(); ++column) {
+    const std::set<std::string> names = point_names(first, column);
+    std::vector<std::size_t> columns{column};
+    for (std::size_t other = 1; other < tables.size() && !names.empty(); ++other) {
+      const CsvTable& table = tables[other].read.table;
+      for (std::size_t at = 0; at < table.columns.size() && columns.size() <= other; ++at)
+        if (names_match(names, point_names(table, at))) columns.push_back(at);
+    }
+    if (columns.size() != tables.size()) continue;
+    for (std::size_t i = 0; i < tables.size(); ++i) tables[i].columns.pose = columns[i];
+    return;
+  }
+}
+
+}  // namespace
 
 std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::path>& files, std::size_t joints,
                                           const ToldLayout& told, const std::vector<std::string>& joint_names) {
@@ -29,6 +73,7 @@ std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::pat
     const std::size_t count = joints > 0 ? joints : count_joint_columns(given.read.table);
     given.columns = guess_columns(given.read.table, count, joint_names);
   }
+  find_names(tables);
   return tables;
 }
 

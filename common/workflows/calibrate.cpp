@@ -191,9 +191,8 @@ CalibrateResult calibrate_without_corrections(const DataSet& data, const Job& jo
 
 /// The placement that a model file gives back to the bit: the rotation of a quaternion that it turns into again.
 Eigen::Isometry3d as_files_have_it(Eigen::Isometry3d placement) {
-  constexpr int kMost = 100;
   Eigen::Quaterniond turn(placement.linear());
-  for (int i = 0; i < kMost; ++i) {
+  for (int left = 100; left > 0; --left) {
     const Eigen::Quaterniond again(turn.normalized().toRotationMatrix());
     if (again.coeffs() == turn.coeffs()) break;
     turn = again;
