@@ -59,5 +59,21 @@ TEST(Proof, SaysFirstWhatAProofWithFewPosesRestsOn) {
   }
 }
 
+TEST(Proof, StatesALargerUncertaintyOutsideTheMeasuredJoints) {
+  SentArm arm(38);
+  add_others(arm, PoseSet::accept, 30);
+  CalibratedModel model = model_of(arm);
+  model.posterior = Posterior{};
+  model.interval->quantile = 2.8;
+  model.interval->model_error_m = kError_m;
+  const auto expanded_mm = [&] {
+    return *make_certificate(model, arm.data(), run_at(kError_m)).uncertainty->expanded_mm;
+  };
+  const double inside_mm = expanded_mm();
+  EXPECT_NEAR(inside_mm, 2.8 * std::sqrt(3.0), 1e-9);
+  model.measured.assign(6, {-0.01, 0.01});
+  EXPECT_GT(expanded_mm(), 3.0 * inside_mm);
+}
+
 }  // namespace
 }  // namespace demecal
