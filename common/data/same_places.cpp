@@ -10,7 +10,7 @@ namespace demecal::inline data {
 namespace {
 
 /// The first row that `row` is at one place with, as far as is known.
-std::size_t first_of(std::vector<std::size_t>& parents, std::size_t row) {
+std::size_t first_row_of(std::vector<std::size_t>& parents, std::size_t row) {
   while (parents[row] != row) {
     parents[row] = parents[parents[row]];
     row = parents[row];
@@ -28,7 +28,7 @@ std::vector<std::size_t> places_of(const DataSet& data, std::span<const std::siz
   std::vector<std::size_t> parents(rows.size());
   std::iota(parents.begin(), parents.end(), std::size_t{0});
   const auto join = [&](std::size_t a, std::size_t b) {
-    const std::size_t first = first_of(parents, a), second = first_of(parents, b);
+    const std::size_t first = first_row_of(parents, a), second = first_row_of(parents, b);
     parents[std::max(first, second)] = std::min(first, second);
   };
   std::map<std::string, std::size_t> by_name;
@@ -50,7 +50,7 @@ std::vector<std::size_t> places_of(const DataSet& data, std::span<const std::siz
   std::vector<std::size_t> places;
   std::map<std::size_t, std::size_t> numbers;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    places.push_back(numbers.try_emplace(first_of(parents, i), numbers.size()).first->second);
+    places.push_back(numbers.try_emplace(first_row_of(parents, i), numbers.size()).first->second);
   return places;
 }
 
