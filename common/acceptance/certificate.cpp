@@ -11,8 +11,10 @@
 #include <map>
 #include <string_view>
 
+#include "acceptance/attained_pose.hpp"
 #include "acceptance/remarks.hpp"
 #include "acceptance/touched_lengths.hpp"
+#include "data_check/searches.hpp"
 #include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
 #include "fitting/fit.hpp"
@@ -124,7 +126,10 @@ std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const D
     CertifiedPose pose{.id = after[i].id, .target = after[i].target, .measurements = after[i].rows.size()};
     pose.before_mm = i < before.size() ? if_finite(millimetres(before[i].accuracy_m)) : std::nullopt;
     pose.after_mm = if_finite(millimetres(after[i].accuracy_m));
-    pose.beyond = after[i].accuracy_m > tolerance_m;
+    pose.single_mm = if_finite(millimetres(after[i].single_m));
+    pose.beyond = after[i].single_m > tolerance_m;
+    pose.payload_kg = data.poses[after[i].rows.front()].payload_kg;
+    pose.temperature_celsius = data.poses[after[i].rows.front()].temperature_celsius;
     pose.approach = after[i].approach;
     if (model.posterior && model.interval) {
       pose.uncertainty_mm = if_finite(millimetres(
@@ -133,7 +138,7 @@ std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const D
     }
     poses.push_back(std::move(pose));
   }
-  std::ranges::stable_sort(poses, std::ranges::greater{}, [](const CertifiedPose& pose) { return *pose.after_mm; });
+  std::ranges::stable_sort(poses, std::ranges::greater{}, [](const CertifiedPose& pose) { return *pose.single_mm; });
   return poses;
 }
 
@@ -154,31 +159,6 @@ std::vector<std::size_t> judged_poses(const DataSet& data) {
     if (!rows.empty()) return rows;
   }
   return {};
-}
-
-bool is_calibrated_with(const CalibratedModel& model, const DataSet& data) {
-  const auto is_it = [&data](const Station& station) { return station.sha256 == data.sha256; };
-  return data.sha256 == model.data_sha256 || std::ranges::any_of(model.stations, is_it);
-}
-
-CertificateFields stated_fields(const CertificateFields& of_data, const CalibratedModel& model, const DataSet& data,
-                                std::vector<std::string>& notes) {
-  CertificateFields of_model = model.certificate;
-  if (is_calibrated_with(model, data)) return merged(of_data, of_model);
-  for (const char* const of_the_day : {"certificate_number", "date", "operator", "place", "environment", "remarks"})
-    of_model.texts.erase(of_the_day);
-  const std::string data_serial = of_data.text("serial_number"), model_serial = of_model.text("serial_number");
-  if (!data_serial.empty() && !model_serial.empty() && data_serial != model_serial)
-    notes.push_back("The data are of the robot with serial number " + data_serial + ", the model is of that with " +
-                    model_serial + ".");
-  std::vector<std::string> taken;
-  for (const CertificateField& field : kCertificateFields)
-    if (of_data.text(field.key).empty() && !of_model.text(field.key).empty()) taken.emplace_back(field.title);
-  if (!of_data.instrument_uncertainty_m && of_model.instrument_uncertainty_m)
-    taken.emplace_back("Uncertainty of the instrument");
-  if (!taken.empty())
-    notes.push_back(fmt::format("The data do not state and the model's job does: {}.", fmt::join(taken, ", ")));
-  return merged(of_data, of_model);
 }
 
 std::vector<std::size_t> placing_poses(const DataSet& data) {
@@ -258,9 +238,17 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
   certificate.characteristics = characteristics(data, poses, after);
   if (!run.fields.instrument_uncertainty_m) certificate.missing.emplace_back("Uncertainty of the instrument");
   const double instrument_m = run.fields.instrument_uncertainty_m.value_or(0.0) / kCoverageFactor;
-  const std::vector<double> errors_m = largest_by_pose(data, poses);
-  certificate.judgement = judge(errors_m, run.tolerance_m, instrument_m, mean_noise_m(model, data, poses));
-  certificate.poses_to_decide = poses_to_decide(errors_m, certificate.judgement);
+  const ErrorsByPlace errors = errors_by_place(poses);
+  certificate.judgement =
+      judge(errors.single_m, errors.mean_m, run.tolerance_m, instrument_m, mean_noise_m(model, data, poses));
+  const PoseSet set = data.poses[rows.front()].set;
+  if (set != PoseSet::calibration && find_shared_poses(data, set)) {
+    withhold(certificate.judgement, "the " + certificate.judged_set +
+                                        " poses stand at the joints of calibration poses, and their errors say nothing "
+                                        "of other places");
+  } else {
+    certificate.poses_to_decide = poses_to_decide(errors.single_m, errors.mean_m, certificate.judgement);
+  }
   CalibratedModel placed = model;
   if (placed.posterior && placed.interval && run.refit_base)
     placed.posterior = registered_posterior(*placed.posterior, *placed.interval, after, data, placing_poses(data));

@@ -44,6 +44,8 @@ struct CertifiedPose {
   std::optional<double> before_mm{}, after_mm{}, uncertainty_mm{};  ///< AP before and after; radius of 95 % at the pose
   bool beyond = false;                                              ///< the tolerance
   std::string approach{};                                           ///< as of AttainedPose
+  std::optional<double> single_mm{};                                ///< 95 % of its measurements err by no more; after
+  std::optional<double> payload_kg{}, temperature_celsius{};        ///< of the first of its measurements
 };
 
 /// What the picture shows, in the frame of the measurements, m.

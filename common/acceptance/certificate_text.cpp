@@ -23,8 +23,9 @@ void fields(auto& visit, Like<Characteristic> auto& one) {
 
 void fields(auto& visit, Like<CertifiedPose> auto& pose) {
   visit("id", pose.id, "target", pose.target, "measurements", pose.measurements, "before_mm", pose.before_mm,
-        "after_mm", pose.after_mm, "interval95_mm", pose.uncertainty_mm, "beyond", pose.beyond, "approach",
-        pose.approach);
+        "after_mm", pose.after_mm, "single_mm", pose.single_mm, "interval95_mm", pose.uncertainty_mm, "beyond",
+        pose.beyond, "approach", pose.approach, "payload_kg", pose.payload_kg, "temperature_celsius",
+        pose.temperature_celsius);
 }
 
 namespace {
@@ -41,7 +42,8 @@ void fields(auto& visit, Like<Judgement> auto& judged) {
         "share_of_poses", kAcceptedShare, "confidence", kConfidence, "error_mm", millimetres(judged.error_m),
         "lower_mm", millimetres_if_any(judged.lower_m), "upper_mm", millimetres_if_any(judged.upper_m),
         "guard_below_mm", millimetres(judged.guard_below_m), "guard_above_mm", millimetres(judged.guard_above_m),
-        "poses", judged.poses, "beyond", judged.beyond, "assumes_normal", judged.assumes_normal);
+        "poses", judged.poses, "beyond", judged.beyond, "assumes_normal", judged.assumes_normal, "withheld",
+        judged.withheld);
 }
 
 void fields(auto& visit, Like<Certificate> auto& certificate) {
@@ -65,6 +67,11 @@ std::string verdict_sentence(const Certificate& certificate) {
                   judged.poses, certificate.judged_set, certificate.words.poses);
   switch (judged.verdict) {
     case Conformity::conformity:
+      if (judged.assumes_normal)
+        return fmt::format(
+            "Conformity proved if errors are normally distributed: {}, at a confidence of {:.1f} % then; fewer than {} "
+            "{} prove it of no other distribution.",
+            claim, 100.0 * kConfidence, fewest_without_assumption(), certificate.words.poses);
       return fmt::format("Conformity proved: {}, at a confidence of {:.1f} %.", claim, 100.0 * kConfidence);
     case Conformity::non_conformity:
       return fmt::format("Non-conformity proved: it is not true, at a confidence of {:.1f} %, that {}.",
@@ -72,6 +79,9 @@ std::string verdict_sentence(const Certificate& certificate) {
     case Conformity::undecided:
       break;
   }
+  if (!judged.withheld.empty())
+    return fmt::format("Undecided: {}: these measurements prove neither that {} nor that it is not.", judged.withheld,
+                       claim);
   return fmt::format("Undecided: these measurements prove neither that {} nor that it is not.", claim);
 }
 
@@ -88,6 +98,8 @@ std::string remedy_sentence(const Certificate& certificate) {
         "{0} {1} in all, {2} more of the same kind, would decide if the share of {1} beyond the limit stays as it is.",
         *certificate.poses_to_decide, certificate.words.poses, *certificate.poses_to_decide - judged.poses);
   }
+  if (!judged.withheld.empty())
+    return "Measure " + certificate.judged_set + " " + certificate.words.poses + " of their own.";
   return "The error is so close to the tolerance that no practical number of " + certificate.words.poses +
          " would decide.";
 }

@@ -1,7 +1,6 @@
 #include "acceptance/iso9283.hpp"
 
 #include <fmt/format.h>
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -11,10 +10,7 @@
 #include <utility>
 
 #include "data/text.hpp"
-#include "effects/arm_state.hpp"
-#include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
-#include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline acceptance {
@@ -24,49 +20,6 @@ using AttainedPoses = std::vector<AttainedPose>;
 
 constexpr std::size_t kCyclesOfStandard = 30;
 constexpr std::size_t kCyclesThatTell = 10;  ///< of fewer, mean and deviation come out too small: of two by two thirds
-
-std::string approach_text(const MeasuredPose& pose) {
-  std::string text;
-  if (!pose.approach) return text;
-  for (int joint = 0; joint < pose.approach->size(); ++joint)
-    text += (*pose.approach)[joint] > 0 ? '+' : (*pose.approach)[joint] < 0 ? '-' : '0';
-  return text;
-}
-
-/// Mean and three standard deviations of the distances from the barycentre.
-double repeatability_m(const std::vector<Eigen::Vector3d>& attained_m) {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : attained_m) centre += point / static_cast<double>(attained_m.size());
-  std::vector<double> distances;
-  for (const Eigen::Vector3d& point : attained_m) distances.push_back((point - centre).norm());
-  const double mean_m = mean(distances);
-  double squares = 0.0;
-  for (const double distance : distances) squares += (distance - mean_m) * (distance - mean_m);
-  return mean_m + 3.0 * std::sqrt(squares / static_cast<double>(distances.size() - 1));
-}
-
-/// Fills what follows from the rows of the pose.
-void evaluate(const DataSet& data, const CorrectedRobot& robot, AttainedPose& pose) {
-  std::vector<Eigen::Vector3d> attained_m;
-  double squares = 0.0;
-  for (const std::size_t row : pose.rows) {
-    const MeasuredPose& measured = data.poses[row];
-    squares += std::pow(tool_error_m(robot, data, measured), 2);
-    if (!measured.position_m) continue;
-    attained_m.push_back(*measured.position_m);
-    pose.attained_m += *measured.position_m;
-    pose.commanded_m += robot.predict(Stop(measured), measured.target).translation();
-  }
-  pose.has_position = attained_m.size() == pose.rows.size();
-  if (!pose.has_position) {
-    pose.accuracy_m = std::sqrt(squares / static_cast<double>(pose.rows.size()));
-    return;
-  }
-  pose.attained_m /= static_cast<double>(attained_m.size());
-  pose.commanded_m /= static_cast<double>(attained_m.size());
-  pose.accuracy_m = (pose.attained_m - pose.commanded_m).norm();
-  if (attained_m.size() > 1) pose.repeatability_m = repeatability_m(attained_m);
-}
 
 Characteristic pose_accuracy(const AttainedPoses& poses) {
   Characteristic one{"AP", "Pose accuracy (position), largest", "7.2.1", {}, "no position was measured"};
@@ -93,7 +46,7 @@ Characteristic pose_repeatability(const AttainedPoses& poses) {
   for (const AttainedPose& pose : poses) {
     if (!pose.repeatability_m) continue;
     values.push_back(*pose.repeatability_m);
-    fewest = std::min(fewest, pose.rows.size());
+    fewest = std::min(fewest, pose.fewest_repeats);
   }
   if (values.empty()) return one;
   one.value_mm = millimetres(std::ranges::max(values));
@@ -104,11 +57,12 @@ Characteristic pose_repeatability(const AttainedPoses& poses) {
   return one;
 }
 
-/// The poses by id and target, each with its attained poses of all approaches.
-std::map<std::pair<std::string, std::string>, std::vector<const AttainedPose*>> by_pose(const AttainedPoses& poses) {
-  std::map<std::pair<std::string, std::string>, std::vector<const AttainedPose*>> all;
+/// The poses under the same conditions, each with its attained poses of all approaches.
+using PoseAndConditions = std::tuple<std::size_t, std::string, std::size_t, std::size_t>;
+std::map<PoseAndConditions, std::vector<const AttainedPose*>> by_pose(const AttainedPoses& poses) {
+  std::map<PoseAndConditions, std::vector<const AttainedPose*>> all;
   for (const AttainedPose& pose : poses) {
-    if (pose.has_position) all[{pose.id, pose.target}].push_back(&pose);
+    if (pose.has_position) all[{pose.place, pose.target, pose.payload, pose.temperature}].push_back(&pose);
   }
   return all;
 }
@@ -149,7 +103,7 @@ Characteristic distance_accuracy(const AttainedPoses& poses) {
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < taken.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (taken[i]->id == taken[k]->id) continue;
+      if (taken[i]->place == taken[k]->place) continue;
       const double commanded_m = (taken[i]->commanded_m - taken[k]->commanded_m).norm();
       const double error_m = std::abs((taken[i]->attained_m - taken[k]->attained_m).norm() - commanded_m);
       largest_m = std::max(largest_m, error_m);
@@ -166,24 +120,34 @@ Characteristic distance_accuracy(const AttainedPoses& poses) {
   return one;
 }
 
-/// Series of the repeats of one pose, apart in time: a gap longer than a fifth of the whole time parts them.
+/// Series of the repeats of one pose, at whatever temperature, that are long enough to be compared.
 std::vector<AttainedPose> series_of(const DataSet& data, const AttainedPose& pose, const CorrectedRobot& robot) {
-  constexpr double kGap = 0.2;
-  std::vector<std::size_t> rows = pose.rows;
-  if (rows.size() < 4 ||
-      !std::ranges::all_of(rows, [&](std::size_t row) { return data.poses[row].time_s.has_value(); }))
-    return {};
-  const auto time_s = [&data](std::size_t row) { return *data.poses[row].time_s; };
-  std::ranges::stable_sort(rows, {}, time_s);
-  const double span_s = time_s(rows.back()) - time_s(rows.front());
-  std::vector<AttainedPose> series(1);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (i > 0 && time_s(rows[i]) - time_s(rows[i - 1]) > kGap * span_s) series.emplace_back();
-    series.back().rows.push_back(rows[i]);
-  }
-  std::erase_if(series, [](const AttainedPose& one) { return one.rows.size() < 2; });
-  for (AttainedPose& one : series) evaluate(data, robot, one);
+  std::vector<AttainedPose> series;
+  for (std::vector<std::size_t>& rows : in_series(data, pose.rows))
+    if (rows.size() >= kCyclesThatTell) series.push_back(with_rows(data, robot, pose, std::move(rows)));
   return series;
+}
+
+/// The poses with the repeats of all temperatures: an arm that warms up is what drift is about.
+AttainedPoses at_all_temperatures(const AttainedPoses& poses) {
+  AttainedPoses all;
+  std::map<std::tuple<std::size_t, std::string, std::string, std::size_t>, std::size_t> known;
+  for (const AttainedPose& pose : poses) {
+    if (!pose.has_position) continue;
+    const auto [entry, is_new] = known.try_emplace({pose.place, pose.target, pose.approach, pose.payload}, all.size());
+    if (is_new) {
+      all.push_back(pose);
+    } else {
+      std::vector<std::size_t>& rows = all[entry->second].rows;
+      rows.insert(rows.end(), pose.rows.begin(), pose.rows.end());
+    }
+  }
+  return all;
+}
+
+std::string no_series() {
+  return fmt::format("no pose was measured in two series of {} repeats or more, ten minutes or more apart",
+                     kCyclesThatTell);
 }
 
 struct SeriesDrift {
@@ -193,8 +157,8 @@ struct SeriesDrift {
 
 SeriesDrift drift_of(const DataSet& data, const AttainedPoses& poses, const CorrectedRobot& robot) {
   SeriesDrift drift;
-  for (const AttainedPose& pose : poses) {
-    const std::vector<AttainedPose> series = pose.has_position ? series_of(data, pose, robot) : AttainedPoses{};
+  for (const AttainedPose& pose : at_all_temperatures(poses)) {
+    const AttainedPoses series = series_of(data, pose, robot);
     if (series.size() < 2) continue;
     ++drift.poses;
     const double begin_s = *data.poses[series.front().rows.front()].time_s;
@@ -210,43 +174,11 @@ SeriesDrift drift_of(const DataSet& data, const AttainedPoses& poses, const Corr
 
 }  // namespace
 
-std::vector<AttainedPose> attained_poses(const DataSet& data, std::span<const std::size_t> rows,
-                                         const CorrectedRobot& robot) {
-  std::vector<AttainedPose> poses;
-  std::map<std::tuple<std::string, std::string, std::string>, std::size_t> places;
-  for (const std::size_t row : rows) {
-    const MeasuredPose& measured = data.poses[row];
-    if (!std::isfinite(tool_error_m(robot, data, measured))) continue;
-    const std::string approach = approach_text(measured);
-    const auto [place, is_new] = places.try_emplace({measured.pose_id, measured.target, approach}, poses.size());
-    if (is_new) poses.push_back({.id = measured.pose_id, .target = measured.target, .approach = approach, .rows = {}});
-    poses[place->second].rows.push_back(row);
-  }
-  for (AttainedPose& pose : poses) evaluate(data, robot, pose);
-  return poses;
-}
-
-std::vector<double> largest_by_pose(const DataSet& data, const std::vector<AttainedPose>& poses) {
-  std::map<std::string, std::size_t> by_id;
-  std::map<std::vector<double>, std::size_t> by_joints;
-  std::vector<double> largest_m;
-  for (const AttainedPose& pose : poses) {
-    const JointVector& joints = data.poses[pose.rows.front()].joints;
-    const auto [same_joints, fresh_joints] = by_joints.try_emplace({joints.begin(), joints.end()}, largest_m.size());
-    const auto [same_id, fresh_id] = by_id.try_emplace(pose.id, same_joints->second);
-    const std::size_t place = fresh_joints ? same_id->second : same_joints->second;
-    same_joints->second = place;
-    if (place == largest_m.size()) largest_m.push_back(0.0);
-    largest_m[place] = std::max(largest_m[place], pose.accuracy_m);
-  }
-  return largest_m;
-}
-
 std::vector<Characteristic> characteristics(const DataSet& data, const std::vector<AttainedPose>& poses,
                                             const CorrectedRobot& robot) {
   const SeriesDrift drift = drift_of(data, poses, robot);
   const auto drifted = [&drift](const char* symbol, const char* title, double value_m) {
-    Characteristic one{symbol, title, "7.6", {}, "no pose was measured repeatedly in series apart in time"};
+    Characteristic one{symbol, title, "7.6", {}, no_series()};
     if (drift.poses == 0) return one;
     one.value_mm = millimetres(value_m);
     one.basis = fmt::format("{}, over {:.1f} h", counted(drift.poses, "pose"), drift.longest_s / 3600.0);

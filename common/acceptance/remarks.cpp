@@ -84,20 +84,19 @@ class Remarks {
     if (!run_.fields.instrument_uncertainty_m)
       add("The instrument's uncertainty is not stated (instrument_uncertainty_mm): errors of the instrument that all "
           "poses share are not in the guard band.");
-    if (certificate_.judgement.assumes_normal)
-      add(
-          fmt::format("With fewer than {} poses the upper limit assumes that errors are normally distributed along one "
-                      "line.",
-                      fewest_without_assumption()));
     if (certificate_.judgement.poses < certificate_.poses.size())
       add(
-          fmt::format("{} were measured with several targets or from several sides: of each the largest error is "
-                      "judged.",
+          fmt::format("{} were measured with several targets, from several sides or under several conditions: of each "
+                      "the largest error is judged.",
                       counted(certificate_.judgement.poses, "pose")));
     const auto is_repeated = [](const CertifiedPose& pose) { return pose.measurements > 1; };
     if (std::ranges::none_of(certificate_.poses, is_repeated))
       add("No judged pose was measured repeatedly: the noise in the guard band above the tolerance is what the model's "
           "fit left, which holds the model's error too.");
+    else
+      add("Of a pose that was measured repeatedly the error is judged that 95 % of its single measurements keep "
+          "within, "
+          "not that of their mean (AP).");
     if (run_.refit_base)
       add("Base and tool were fitted to this data set's poses that are not judged before anything else.");
     if (!certificate_.before.mean_mm)

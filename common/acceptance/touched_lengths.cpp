@@ -67,7 +67,8 @@ std::vector<CertifiedPose> certified_lengths(const DataSet& data, const std::vec
                      .measurements = 1,
                      .before_mm = if_finite(millimetres(before[i].error_m)),
                      .after_mm = if_finite(millimetres(after[i].error_m)),
-                     .beyond = after[i].error_m > tolerance_m});
+                     .beyond = after[i].error_m > tolerance_m,
+                     .single_mm = if_finite(millimetres(after[i].error_m))});
   }
   std::ranges::stable_sort(poses, std::ranges::greater{}, &CertifiedPose::after_mm);
   return poses;
@@ -161,7 +162,7 @@ void judge_lengths(const CalibratedModel& model, const DataSet& data, std::span<
   // Two touches scatter along the length.
   const double noise_m = model.interval ? std::sqrt(2.0) * model.interval->noise_m : 0.0;
   certificate.judgement = judge(errors_in_m(after), run.tolerance_m, sigma_m(after), noise_m);
-  certificate.poses_to_decide = poses_to_decide(errors_in_m(after), certificate.judgement);
+  certificate.poses_to_decide = poses_to_decide(errors_in_m(after), errors_in_m(after), certificate.judgement);
   certificate.poses = certified_lengths(data, before, after, run.tolerance_m);
   certificate.view = view_of_lengths(data, after, model.robot);
 }

@@ -1,8 +1,10 @@
 #include "acceptance/verdict.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 #include <vector>
 
 #include "errors/check.hpp"
@@ -96,6 +98,11 @@ std::size_t fewest_without_assumption() {
 }
 
 Judgement judge(std::span<const double> errors_m, double tolerance_m, double instrument_m, double noise_m) {
+  return judge(errors_m, errors_m, tolerance_m, instrument_m, noise_m);
+}
+
+Judgement judge(std::span<const double> errors_m, std::span<const double> means_m, double tolerance_m,
+                double instrument_m, double noise_m) {
   constexpr double kCoverageFactor = 2.0;
   Judgement judged{.tolerance_m = tolerance_m,
                    .lower_m = {},
@@ -103,32 +110,43 @@ Judgement judge(std::span<const double> errors_m, double tolerance_m, double ins
                    .guard_below_m = kCoverageFactor * instrument_m,
                    .guard_above_m = kCoverageFactor * std::hypot(instrument_m, noise_m),
                    .poses = errors_m.size()};
+  DEMECAL_CHECK(errors_m.size() == means_m.size(), errors_m.size() << " and " << means_m.size());
   if (errors_m.empty()) return judged;
-  std::vector<double> ascending(errors_m.begin(), errors_m.end());
+  std::vector<double> ascending(errors_m.begin(), errors_m.end()), means(means_m.begin(), means_m.end());
   std::ranges::sort(ascending);
+  std::ranges::sort(means);
   DEMECAL_CHECK(std::isfinite(ascending.front()) && std::isfinite(ascending.back()), "an error that is no number");
   judged.error_m = share_of(ascending);
   judged.beyond = count_beyond(ascending, tolerance_m);
   const std::size_t upper = upper_rank(ascending.size()), lower = lower_rank(ascending.size());
   judged.assumes_normal = upper > ascending.size();
   judged.upper_m = judged.assumes_normal ? normal_upper_limit(ascending) : ascending[upper - 1];
-  if (lower > 0) judged.lower_m = ascending[lower - 1];
+  if (lower > 0) judged.lower_m = means[lower - 1];
   if (*judged.upper_m + judged.guard_below_m <= tolerance_m) {
     judged.verdict = Conformity::conformity;
   } else if (judged.lower_m && *judged.lower_m - judged.guard_above_m > tolerance_m) {
     judged.verdict = Conformity::non_conformity;
   }
+  if (judged.poses < kFewestJudged)
+    withhold(judged, fmt::format("so few prove nothing of others, {} at least are needed", kFewestJudged));
   return judged;
 }
 
-std::optional<std::size_t> poses_to_decide(std::span<const double> errors_m, const Judgement& judged) {
+void withhold(Judgement& judged, std::string why) {
+  if (judged.verdict != Conformity::conformity) return;
+  judged.verdict = Conformity::undecided;
+  judged.withheld = std::move(why);
+}
+
+std::optional<std::size_t> poses_to_decide(std::span<const double> errors_m, std::span<const double> means_m,
+                                           const Judgement& judged) {
   if (judged.verdict != Conformity::undecided || errors_m.empty()) return std::nullopt;
-  const auto share = [&](double limit) {
-    const auto beyond = std::ranges::count_if(errors_m, [limit](double error) { return error > limit; });
-    return static_cast<double>(beyond) / static_cast<double>(errors_m.size());
+  const auto share = [](std::span<const double> values, double limit) {
+    const auto beyond = std::ranges::count_if(values, [limit](double error) { return error > limit; });
+    return static_cast<double>(beyond) / static_cast<double>(values.size());
   };
-  const double outside = share(judged.tolerance_m - judged.guard_below_m);
-  const double far = share(judged.tolerance_m + judged.guard_above_m);
+  const double outside = share(errors_m, judged.tolerance_m - judged.guard_below_m);
+  const double far = share(means_m, judged.tolerance_m + judged.guard_above_m);
   if (outside < 1.0 - kAcceptedShare) return poses_needed(errors_m.size(), outside, true);
   if (far > 1.0 - kAcceptedShare) return poses_needed(errors_m.size(), far, false);
   return std::nullopt;

@@ -104,7 +104,8 @@ void DccResults::judgement() {
   quantity("tolerance", millimetres(judged.tolerance_m), "mm");
   quantity("error that 95 % of the judged " + certificate_.words.poses + " keep within", millimetres(judged.error_m),
            "mm");
-  quantity("upper limit of the same of all " + certificate_.words.poses + " like these, 97.5 % confidence",
+  quantity("upper limit of the same of all " + certificate_.words.poses + " like these, 97.5 % confidence" +
+               (judged.assumes_normal ? " if errors are normally distributed" : ""),
            in_mm(judged.upper_m), "mm", "too few poses");
   quantity("lower limit of the same of all " + certificate_.words.poses + " like these, 97.5 % confidence",
            in_mm(judged.lower_m), "mm", "too few poses");
@@ -120,14 +121,11 @@ void DccResults::uncertainty() {
   quantity("expanded uncertainty, k = 2, about 95 %", entry.expanded_mm, "mm");
 }
 
-void DccResults::list_quantity(const std::string& name, std::optional<double> CertifiedPose::*value,
-                               bool with_uncertainty) {
-  std::string values, uncertainties;
+void DccResults::list_quantity(const std::string& name, std::optional<double> CertifiedPose::*value) {
+  std::string values;
   for (const CertifiedPose& pose : certificate_.poses) {
     if (!(pose.*value)) return;
     values += decimal(*(pose.*value)) + " ";
-    with_uncertainty = with_uncertainty && pose.uncertainty_mm.has_value();
-    if (with_uncertainty) uncertainties += decimal(*pose.uncertainty_mm) + " ";
   }
   if (values.empty()) return;
   xml_.element("dcc:quantity", [&] {
@@ -135,12 +133,6 @@ void DccResults::list_quantity(const std::string& name, std::optional<double> Ce
     xml_.element("si:realListXMLList", [&] {
       xml_.leaf("si:valueXMLList", values);
       xml_.leaf("si:unitXMLList", si_unit("mm"));
-      if (!with_uncertainty) return;
-      xml_.element("si:expandedUncXMLList", [&] {
-        xml_.leaf("si:uncertaintyXMLList", uncertainties);
-        xml_.leaf("si:coverageFactorXMLList", "2");
-        xml_.leaf("si:coverageProbabilityXMLList", "0.95");
-      });
     });
   });
 }
@@ -161,9 +153,13 @@ void DccResults::poses() {
     });
   }
   const std::string one = certificate_.words.of_one == "AP" ? "pose accuracy AP" : certificate_.words.of_one;
-  list_quantity(one + " before calibration", &CertifiedPose::before_mm, false);
-  list_quantity(one + " after calibration, with the radius that holds 95 % of errors there", &CertifiedPose::after_mm,
-                true);
+  list_quantity(one + " before calibration", &CertifiedPose::before_mm);
+  list_quantity(one + " after calibration", &CertifiedPose::after_mm);
+  list_quantity("error that 95 % of the single measurements of a pose keep within, after calibration",
+                &CertifiedPose::single_mm);
+  list_quantity(
+      "radius that the model predicts to hold 95 % of measured errors at the pose (no uncertainty of " + one + ")",
+      &CertifiedPose::uncertainty_mm);
 }
 
 }  // namespace demecal::inline certificate

@@ -38,7 +38,7 @@ class DccResults {
   void errors(const SetErrors& errors);
   void judgement();
   void uncertainty();
-  void list_quantity(const std::string& name, std::optional<double> CertifiedPose::*value, bool with_uncertainty);
+  void list_quantity(const std::string& name, std::optional<double> CertifiedPose::*value);
   void poses();
 };
 

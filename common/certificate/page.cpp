@@ -90,9 +90,10 @@ std::string verdict(const Certificate& certificate) {
   rows += fact_row(
       fmt::format("Error that {:.0f} % of the judged {} keep within", 100.0 * kAcceptedShare, certificate.words.poses),
       fmt::format("{:.3f} mm", millimetres(judged.error_m)));
-  rows += fact_row(fmt::format("The same of all {} like these, at most ({:.1f} % confidence)", certificate.words.poses,
-                               100.0 * kConfidence),
-                   limit(judged.upper_m));
+  rows +=
+      fact_row(fmt::format("The same of all {} like these, at most ({:.1f} % confidence{})", certificate.words.poses,
+                           100.0 * kConfidence, judged.assumes_normal ? " if errors are normally distributed" : ""),
+               limit(judged.upper_m));
   rows += fact_row(fmt::format("and at least ({:.1f} % confidence)", 100.0 * kConfidence), limit(judged.lower_m));
   rows += fact_row(
       "Guard band below the tolerance, above it (k = 2)",
@@ -107,7 +108,8 @@ std::string verdict(const Certificate& certificate) {
          "guard band below the tolerance stay within it, non-conformity where the lower limit less the guard band "
          "above "
          "still exceeds it; between the two nothing is proved. A wrong verdict at the tolerance itself has a "
-         "probability of at most 2.5 %.</p>\n";
+         "probability of at most 2.5 %" +
+         (judged.assumes_normal ? " (conformity: if errors are normally distributed)" : "") + ".</p>\n";
 }
 
 std::string results(const Certificate& certificate) {
@@ -170,6 +172,12 @@ std::string conditions_section(const Certificate& certificate) {
   return "<h2>Conditions</h2>\n<table class=\"facts\" id=\"conditions\">\n" + rows + "</table>\n";
 }
 
+/// Of the measurements of a pose, whose mean may be within.
+std::string beyond_text(const CertifiedPose& pose) {
+  if (pose.measurements < 2) return "beyond the tolerance";
+  return "single measurements beyond the tolerance, to " + mm_figure(pose.single_mm) + " mm";
+}
+
 std::string pose_list(const Certificate& certificate) {
   const bool approached =
       std::ranges::any_of(certificate.poses, [](const CertifiedPose& pose) { return !pose.approach.empty(); });
@@ -186,7 +194,7 @@ std::string pose_list(const Certificate& certificate) {
                 "<td class=\"number\">{}</td><td class=\"number\">{}</td><td class=\"number\">{}</td>"
                 "<td class=\"number\">{}</td><td>{}</td></tr>\n",
                 pose.measurements, mm_figure(pose.before_mm), mm_figure(pose.after_mm), mm_figure(pose.uncertainty_mm),
-                pose.beyond ? "beyond the tolerance" : "");
+                pose.beyond ? beyond_text(pose) : std::string());
   }
   const std::string title =
       shown < certificate.poses.size()

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "data/same_places.hpp"
 #include "data/text.hpp"
 #include "data_check/searches.hpp"
 #include "decompositions/decompositions.hpp"
@@ -23,10 +24,9 @@ namespace demecal::inline data_check {
 namespace {
 
 constexpr double kHardlyMoving_rad = radians(2.0), kHardlyMoving_m = 5e-3;
-constexpr double kFlat = 0.005;        ///< ratio of a cloud's extents that makes it a plane: an arm's errors over 0.3 m
-constexpr double kThin = 0.05;         ///< ratio of both to the third that makes it a line
-constexpr int kFineDecimals_mm = 3;    ///< digits behind the point, mm, that repeats with noise do not share
-constexpr double kSameReading = 2e-4;  ///< rad or m: to what joints that are driven to again are read
+constexpr double kFlat = 0.005;      ///< ratio of a cloud's extents that makes it a plane: an arm's errors over 0.3 m
+constexpr double kThin = 0.05;       ///< ratio of both to the third that makes it a line
+constexpr int kFineDecimals_mm = 3;  ///< digits behind the point, mm, that repeats with noise do not share
 constexpr std::size_t kFewestPoses = 4;  ///< below which nothing is said of spread
 
 Finding constant_joint(const DataSet& data, int joint, double range) {
@@ -132,34 +132,37 @@ std::vector<Finding> find_small_angles(const DataSet& data) {
                                    degrees(largest))}};
 }
 
-std::vector<Finding> find_shared_poses(const DataSet& data) {
+std::optional<Finding> find_shared_poses(const DataSet& data, PoseSet set) {
   std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);
   const auto first_joint = [&](std::size_t pose) { return data.poses[pose].joints[0]; };
   std::ranges::sort(fitted, {}, first_joint);
   const auto twin_of = [&](const MeasuredPose& pose) -> const MeasuredPose* {
     auto at = std::ranges::lower_bound(fitted, pose.joints[0] - kSameReading, {}, first_joint);
     for (; at != fitted.end() && first_joint(*at) <= pose.joints[0] + kSameReading; ++at)
-      if ((data.poses[*at].joints - pose.joints).cwiseAbs().maxCoeff() <= kSameReading) return &data.poses[*at];
+      if (same_reading(data.poses[*at].joints, pose.joints)) return &data.poses[*at];
     return nullptr;
   };
+  const std::vector<std::size_t> judging = poses_of(data, set);
+  std::vector<std::pair<const MeasuredPose*, const MeasuredPose*>> shared;
+  for (const std::size_t pose : judging)
+    if (const MeasuredPose* twin = twin_of(data.poses[pose])) shared.emplace_back(&data.poses[pose], twin);
+  if (shared.size() < 2 || 20 * shared.size() < judging.size()) return std::nullopt;
+  Finding finding{.kind = FindingKind::shared_poses};
+  for (const auto& [pose, twin] : shared) finding.poses.push_back(pose->pose_id);
+  const auto& [pose, twin] = shared.front();
+  finding.sentence = fmt::format(
+      "{} of the {} {} poses stand at the joints of calibration poses (line {}{} at those of line {}{}): their "
+      "errors say nothing of other places. Give repeats of a pose one name and one set, or measure {} poses of their "
+      "own.",
+      shared.size(), judging.size(), to_string(set), pose->line, name_beside_line(*pose), twin->line,
+      name_beside_line(*twin), to_string(set));
+  return finding;
+}
+
+std::vector<Finding> find_shared_poses(const DataSet& data) {
   std::vector<Finding> found;
-  for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) {
-    const std::vector<std::size_t> judging = poses_of(data, set);
-    std::vector<std::pair<const MeasuredPose*, const MeasuredPose*>> shared;
-    for (const std::size_t pose : judging)
-      if (const MeasuredPose* twin = twin_of(data.poses[pose])) shared.emplace_back(&data.poses[pose], twin);
-    if (shared.size() < 2 || 20 * shared.size() < judging.size()) continue;
-    Finding finding{.kind = FindingKind::shared_poses};
-    for (const auto& [pose, twin] : shared) finding.poses.push_back(pose->pose_id);
-    const auto& [pose, twin] = shared.front();
-    finding.sentence = fmt::format(
-        "{} of the {} {} poses stand at the joints of calibration poses (line {}{} at those of line {}{}): their "
-        "errors say nothing of other places. Give repeats of a pose one name and one set, or measure {} poses of their "
-        "own.",
-        shared.size(), judging.size(), to_string(set), pose->line, name_beside_line(*pose), twin->line,
-        name_beside_line(*twin), to_string(set));
-    found.push_back(std::move(finding));
-  }
+  for (const PoseSet set : {PoseSet::validation, PoseSet::accept})
+    if (std::optional<Finding> finding = find_shared_poses(data, set)) found.push_back(std::move(*finding));
   return found;
 }
 

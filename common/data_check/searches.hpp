@@ -129,6 +129,8 @@ std::vector<Finding> find_small_angles(const DataSet& data);
 /// Validation or accept poses, one in twenty of their set and two at least, at the joints of calibration poses: what
 /// was fitted judges itself there.
 std::vector<Finding> find_shared_poses(const DataSet& data);
+/// Those of one set.
+std::optional<Finding> find_shared_poses(const DataSet& data, PoseSet set);
 
 /// Takes rows out that repeat another to the last digit of what was measured, joints included, and names each: a repeat
 /// with noise does not, unless its digits are as coarse as the noise.

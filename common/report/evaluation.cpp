@@ -222,14 +222,25 @@ namespace {
 /// Poses enough for a mean of what the posterior says.
 constexpr std::size_t kMostJudged = 300;
 
-double mean_posterior_m2(const CalibratedModel& model, const DataSet& data, std::span<const std::size_t> rows) {
+/// Means over poses, widened outside the measured joints as radii are there.
+struct MeanSquares {
+  double numbers_m2 = 0.0, left_m2 = 0.0;
+};
+
+MeanSquares mean_squares(const CalibratedModel& model, const DataSet& data, std::span<const std::size_t> rows) {
   const std::size_t step = 1 + (rows.size() - 1) / kMostJudged;
-  double sum = 0.0, count = 0.0;
+  MeanSquares mean;
+  double count = 0.0;
   for (std::size_t i = 0; i < rows.size(); i += step) {
-    sum += posterior_square_m2(*model.posterior, model.robot, data, data.poses[rows[i]]);
+    const MeasuredPose& pose = data.poses[rows[i]];
+    const double widened_squared = std::pow(extrapolation(data.robot.chain, model.measured, pose.joints), 2);
+    mean.numbers_m2 += widened_squared * posterior_square_m2(*model.posterior, model.robot, data, pose);
+    mean.left_m2 += widened_squared * 3.0 * std::pow(model.interval->model_error_m, 2);
     count += 1.0;
   }
-  return sum / count;
+  mean.numbers_m2 /= count;
+  mean.left_m2 /= count;
+  return mean;
 }
 
 }  // namespace
@@ -238,8 +249,8 @@ std::optional<UncertaintyEntry> uncertainty_of(const CalibratedModel& model, con
                                                std::span<const std::size_t> rows, std::optional<double> instrument_m) {
   if (!model.posterior || !model.interval || rows.empty()) return std::nullopt;
   const double scale = model.interval->quantile / kCoverageFactor;
-  const double numbers_m = scale * std::sqrt(mean_posterior_m2(model, data, rows));
-  const double left_m = scale * std::sqrt(3.0) * model.interval->model_error_m;
+  const MeanSquares mean = mean_squares(model, data, rows);
+  const double numbers_m = scale * std::sqrt(mean.numbers_m2), left_m = scale * std::sqrt(mean.left_m2);
   const double stated_m = instrument_m.value_or(0.0) / kCoverageFactor;
   const double standard_m = std::sqrt(numbers_m * numbers_m + left_m * left_m + stated_m * stated_m);
   UncertaintyEntry entry;

@@ -64,18 +64,75 @@ TEST(Iso9283, DistanceAccuracyKnowsNothingOfTheFrame) {
   EXPECT_GT(*arm.criterion("AP").value_mm, 100.0);
 }
 
-TEST(Iso9283, DriftIsTheChangeBetweenSeriesOfRepeats) {
-  SentArm arm(7);
-  const JointVector joints = arm.somewhere();
-  for (int hour = 0; hour < 3; ++hour) {
-    double second = 3600.0 * hour;
-    for (const Eigen::Vector3d& scatter : kScatter)
-      arm.add("P1", joints, (1.0 + hour) * kOffset + (1.0 + hour) * scatter).time_s = second++;
+/// Three times the scatter, whose barycentre is `shift_m` from where the arm was sent, from `begin_s` on.
+void add_series(SentArm& arm, const JointVector& joints, const Eigen::Vector3d& shift_m, double factor,
+                double begin_s) {
+  for (int cycle = 0; cycle < 3; ++cycle) {
+    for (const Eigen::Vector3d& scatter : kScatter) {
+      arm.add("P1", joints, shift_m + factor * scatter).time_s = begin_s;
+      begin_s += 30.0;
+    }
   }
+}
+
+TEST(Iso9283, DriftIsTheChangeBetweenSeriesOfRepeats) {
+  SentArm arm(7), once(8);
+  const JointVector joints = arm.somewhere();
+  for (int hour = 0; hour < 3; ++hour) add_series(arm, joints, (1.0 + hour) * kOffset, 1.0 + hour, 3600.0 * hour);
+  add_series(once, once.somewhere(), kOffset, 1.0, 0.0);
   EXPECT_NEAR(*arm.criterion("dAP").value_mm, 2.6, 1e-9);
-  SentArm once(8);
-  for (const Eigen::Vector3d& scatter : kScatter) once.add("P1", joints, kOffset + scatter).time_s = 0.0;
   EXPECT_NEAR(*arm.criterion("dRP").value_mm, 2.0 * *once.criterion("RP").value_mm, 1e-9);
+}
+
+TEST(Iso9283, RepeatabilityIsOfOneSeriesAndHoldsNoDrift) {
+  SentArm drifting(12), once(13);
+  const JointVector joints = drifting.somewhere();
+  for (int series = 0; series < 3; ++series)
+    add_series(drifting, joints, (1.0 + series) * kOffset, 1.0, 14400.0 * series);
+  add_series(once, once.somewhere(), kOffset, 1.0, 0.0);
+  EXPECT_NEAR(*drifting.criterion("RP").value_mm, *once.criterion("RP").value_mm, 1e-9);
+}
+
+TEST(Iso9283, RepeatsOfOneHourWithGapsOfAnyLengthAreOneSeries) {
+  SentArm arm(14);
+  const JointVector joints = arm.somewhere();
+  add_series(arm, joints, kOffset, 1.0, 0.0);
+  add_series(arm, joints, 2.0 * kOffset, 1.0, 900.0);  // nine minutes after the last
+  EXPECT_FALSE(arm.criterion("dAP").value_mm);
+  SentArm few(15);
+  for (const double hour : {0.0, 1.0})
+    for (const Eigen::Vector3d& scatter : kScatter) few.add("P1", joints, scatter).time_s = 3600.0 * hour;
+  EXPECT_FALSE(few.criterion("dRP").value_mm) << "four repeats tell no repeatability";
+}
+
+TEST(Iso9283, PosesUnderOtherConditionsAreNoRepeats) {
+  SentArm arm(16);
+  const JointVector joints = arm.somewhere();
+  for (const double payload_kg : {0.0, 5.0}) {
+    for (const double celsius : {20.0, 23.0, 40.0}) {
+      MeasuredPose& pose = arm.add("P1", joints, payload_kg * kOffset);
+      pose.payload_kg = payload_kg;
+      pose.temperature_celsius = celsius;
+    }
+  }
+  EXPECT_EQ(arm.poses().size(), 4U) << "3 degrees make no other condition";
+  EXPECT_NEAR(*arm.criterion("RP").value_mm, 0.0, 1e-9);
+  EXPECT_EQ(errors_by_place(arm.poses()).mean_m.size(), 1U);
+}
+
+TEST(Iso9283, PosesWhoseLoggedJointsScatterAreOnePlaceWhateverTheirNames) {
+  SentArm arm(17);
+  const JointVector joints = arm.somewhere();
+  for (int i = 0; i < 30; ++i) {
+    JointVector logged = joints;
+    logged[i % 6] += (i % 3 - 1) * 1e-5;
+    arm.add("M" + std::to_string(i), logged, kOffset);
+  }
+  EXPECT_EQ(arm.poses().size(), 1U);
+  JointVector elsewhere = joints;
+  elsewhere[2] += 1e-2;
+  arm.add("other", elsewhere, kOffset);
+  EXPECT_EQ(errors_by_place(arm.poses()).single_m.size(), 2U);
 }
 
 TEST(Iso9283, SaysWhatWasNotMeasured) {

@@ -82,6 +82,40 @@ TEST(Verdict, NeedsNoDistributionWithManyPoses) {
   }
 }
 
+/// What is 8 % of the time far beyond any tolerance, and small otherwise.
+double far_off(RandomStream& random) {
+  return random.chance(0.08) ? 100.0 : 0.01 * half_normal(random);
+}
+
+/// Why fewer than 72 poses prove nothing without saying of which errors, and fewer than 20 nothing at all.
+TEST(Verdict, RestsOnNormalErrorsWithFewPoses) {
+  for (const std::size_t poses : {20U, 40U, 60U}) {
+    const Shares heavy = proved(pareto, kPareto95, poses, 17 + poses), far = proved(far_off, 10.0, poses, 27 + poses);
+    print("heavy tails", poses, heavy);
+    print("8 % far off", poses, far);
+    EXPECT_NEAR(far.conforming, std::pow(0.92, static_cast<double>(poses)), 0.02) << poses;
+  }
+  for (const std::size_t poses : {72U, 150U}) {
+    const Shares far = proved(far_off, 10.0, poses, 27 + poses);
+    print("8 % far off", poses, far);
+    EXPECT_LE(far.conforming, kMost) << poses;
+  }
+  const std::vector<double> small(kFewestJudged, 1e-4);
+  EXPECT_EQ(judge(small, 1e-3, 0.0, 0.0).verdict, Conformity::conformity);
+  const std::vector<double> fewer(kFewestJudged - 1, 1e-4);
+  const Judgement judged = judge(fewer, 1e-3, 0.0, 0.0);
+  EXPECT_EQ(judged.verdict, Conformity::undecided);
+  EXPECT_NE(judged.withheld, "");
+  EXPECT_EQ(judge(std::vector<double>(12, 1e-2), 1e-3, 0.0, 0.0).withheld, "") << "nothing was withheld";
+}
+
+TEST(Verdict, IsProvedBySingleMeasurementsAndDisprovedByTheirMeans) {
+  const std::vector<double> singles(200, 6e-4), means(200, 1e-4);
+  EXPECT_EQ(judge(singles, means, 5e-4, 0.0, 0.0).verdict, Conformity::undecided);
+  EXPECT_EQ(judge(singles, means, 7e-4, 0.0, 0.0).verdict, Conformity::conformity);
+  EXPECT_EQ(judge(singles, means, 0.9e-4, 0.0, 0.0).verdict, Conformity::non_conformity);
+}
+
 TEST(Verdict, ProvesEitherWhereTheToleranceIsFarFromTheError) {
   RandomStream random{31};
   std::vector<double> errors(60);
@@ -110,7 +144,7 @@ TEST(Verdict, SaysHowManyPosesWouldDecide) {
   const Judgement judged = judge(errors, 1.01e-4, 0.0, 0.0);
   EXPECT_EQ(judged.verdict, Conformity::undecided);
   EXPECT_TRUE(judged.assumes_normal);
-  const auto needed = poses_to_decide(errors, judged);
+  const auto needed = poses_to_decide(errors, errors, judged);
   ASSERT_TRUE(needed);
   EXPECT_EQ(*needed, fewest_without_assumption());
   EXPECT_EQ(fewest_without_assumption(), 72U);

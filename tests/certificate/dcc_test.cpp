@@ -97,6 +97,13 @@ TEST(DigitalCertificate, HoldsTheFigures) {
   }
 }
 
+/// How far the model may be off is no uncertainty of what was measured there.
+TEST(DigitalCertificate, StatesThePredictedRadiusAsAQuantityOfItsOwn) {
+  const std::string xml = dcc_xml(made_up_certificate());
+  EXPECT_EQ(xml.find("expandedUnc"), std::string::npos);
+  EXPECT_NE(xml.find("radius that the model predicts to hold 95 % of measured errors"), std::string::npos);
+}
+
 TEST(DigitalCertificate, WritesTextsWithoutWhiteSpaceAtTheirEnds) {
   EXPECT_EQ(xml_text(" \n a \t b \x01"), "a b");
   EXPECT_EQ(xml_text("\xFF"), "?");

@@ -22,11 +22,12 @@ TEST(Certify, EndsWellWhateverTheVerdict) {
   ASSERT_EQ(wide.code, 0) << wide.err;
   ASSERT_EQ(narrow.code, 0) << narrow.err;
   ASSERT_EQ(json.code, 0) << json.err;
-  EXPECT_TRUE(has(wide.out, "Conformity proved")) << wide.out;
+  EXPECT_TRUE(has(wide.out, "Undecided: so few prove nothing of others")) << wide.out;
   EXPECT_TRUE(has(narrow.out, "Non-conformity proved")) << narrow.out;
   EXPECT_TRUE(has(wide.out, "not measured")) << "RP without repeats";
   const Json said = Json::parse(json.out);
-  EXPECT_EQ(said["judgement"]["verdict"], "conformity proved");
+  EXPECT_EQ(said["judgement"]["verdict"], "undecided");
+  EXPECT_NE(said["judgement"]["withheld"], "");
   EXPECT_EQ(said["judged_set"], "accept");
   EXPECT_EQ(said["judgement"]["poses"], 10);
   const double error_mm = said["judgement"]["error_mm"];
@@ -57,7 +58,8 @@ TEST(Certify, JudgesKnownLengthsWhereNothingWasMeasured) {
   ASSERT_EQ(kept.code, 0) << kept.err;
   const Json said = Json::parse(kept.out);
   EXPECT_EQ(said["judged"], "error of lengths between touched points");
-  EXPECT_EQ(said["judgement"]["verdict"], "conformity proved");
+  EXPECT_EQ(said["judgement"]["verdict"], "undecided") << "twelve prove nothing of others";
+  EXPECT_EQ(said["judgement"]["beyond"], 0);
   EXPECT_EQ(said["judgement"]["poses"], 12);  // 24 accept poses, each an end of one length
   EXPECT_LT(said["error_mm"]["after"]["rms"], said["error_mm"]["before"]["rms"]);
   EXPECT_EQ(Json::parse(finer.out)["judgement"]["verdict"], "undecided") << "lengths are known to 0.02 mm";
