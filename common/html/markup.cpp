@@ -167,6 +167,8 @@ details.folded > section > h2 { display: none; }
   .controls, .pose-name { display: none; } details.folded::details-content { content-visibility: visible; height: auto; } .wide { overflow: visible; }
   table { font-size: 9pt; } th, td { padding: 3px 5px; } thead th { white-space: normal; font-size: 8pt; } thead th.set { font-size: 8.5pt; }
   th[scope="row"] { white-space: normal; } #errors { font-size: 7pt; } #errors :is(th, td) { padding: 2px; } svg.bars { min-width: 0; }
+  :is(#rounds, #evidence) { font-size: 7.5pt; } :is(#rounds, #evidence) :is(th, td, td.wide) { white-space: normal; min-width: 0; padding: 2px 3px; }
+  :is(#rounds, #evidence) :is(td.words, td.numbers, code.law) { font-size: 7.5pt; overflow-wrap: anywhere; }
   .panel, .panel.long { overflow: visible; max-height: none; padding: 6px 8px; } .long thead th { position: static; } pre.formula { max-height: none; }
 }
 )css";

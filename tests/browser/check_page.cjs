@@ -129,7 +129,8 @@ const cutOff = page => page.evaluate(() => {
     await page.emulateMediaType("print");
     await page.setViewport({width: 718, height: 1000});
     await settled(page);
-    seen.errors_right_in_print = await page.$eval("#errors", table => Math.ceil(table.getBoundingClientRect().right));
+    seen.cut_in_print = await page.$$eval("table", tables => tables.map(table =>
+      table.id + " " + Math.ceil(table.getBoundingClientRect().right)).filter(text => Number(text.split(" ")[1]) > 718));
     await page.emulateMediaType(null);
     await page.emulateMediaFeatures([{name: "prefers-color-scheme", value: "dark"}]);
     await page.setViewport({width: 1280, height: 900});
