@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "coordinator/keyboard.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/text.hpp"
 #include "data_check/check_data.hpp"
@@ -42,6 +43,7 @@ void say(const char (&text)[N]) {
 
 void on_interrupt(int) {
   if (interrupted.exchange(true)) {
+    give_keyboard_back();
     say("\nended at once; what was not written yet is lost\n");
     ::_exit(static_cast<int>(ExitCode::interrupted));
   }

@@ -186,6 +186,12 @@ void MonitorScreen::offer(const Watched& watched, double now_s, bool changed) {
   if (is_due) draw(watched, now_s);
 }
 
+void MonitorScreen::toggle_legend() {
+  legend_ = !legend_;
+  changed_ = true;
+  drawn_ = {};  // at once: whoever pressed a key waits
+}
+
 void MonitorScreen::settle(const Watched& watched, double now_s) {
   if (changed_) draw(watched, now_s);
 }
@@ -205,7 +211,8 @@ void MonitorScreen::draw(const Watched& watched, double now_s) {
 void MonitorScreen::redraw(const Watched& watched, double now_s) {
   const Size size = terminal_size(out_);
   const auto page = [&](std::size_t lines) {
-    return monitor_page(watched, {size.columns, lines, colours_, now_s, place_});
+    const bool stays = lines == 0;  // once the keys are no longer read
+    return monitor_page(watched, {size.columns, lines, colours_, now_s, place_, legend_ || stays, keys_ && !stays});
   };
   if (!std::exchange(in_place_, true)) std::fputs(kOtherScreen, out_);
   // The last line ends without a line break: it would move the page up.
@@ -218,7 +225,8 @@ void MonitorScreen::redraw(const Watched& watched, double now_s) {
 
 void MonitorScreen::print(const Watched& watched, double now_s) {
   const Size size = terminal_size(out_);
-  std::fputs(with_line_ends(monitor_page(watched, {size.columns, 0, colours_, now_s, place_}), "\n").c_str(), out_);
+  std::fputs(with_line_ends(monitor_page(watched, {size.columns, 0, colours_, now_s, place_, true}), "\n").c_str(),
+             out_);
   std::fflush(out_);
 }
 

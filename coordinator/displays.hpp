@@ -111,6 +111,11 @@ class MonitorScreen {
   void settle(const Watched& watched, double now_s);
   /// Draws the whole page, as long as it takes, where the text stands.
   void print(const Watched& watched, double now_s);
+  bool is_terminal() const { return terminal_; }
+  /// That keys are read, of which the page then tells; and that one of them shows the legend of its columns, or hides
+  /// it.
+  void tell_of_keys() { keys_ = true; }
+  void toggle_legend();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -121,6 +126,7 @@ class MonitorScreen {
   std::FILE* out_;
   std::string place_;
   bool terminal_, colours_;
+  bool keys_ = false, legend_ = false;
   bool in_place_ = false;  ///< the terminal's other screen is shown
   bool changed_ = true;
   Clock::time_point drawn_{};

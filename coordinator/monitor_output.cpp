@@ -55,6 +55,11 @@ MonitorOutput::MonitorOutput(const MonitorOptions& options) : options_(options),
   if (!options_.record.empty()) recording_.emplace(options_.record);
   if (options_.ros2 != nullptr) ros2_.emplace(*options_.ros2);
   if (options_.json) put_line(first_event_line());
+  const bool draws = !options_.json && !options_.once && options_.http.empty() && screen_.is_terminal();
+  if (draws && Keyboard::is_there()) {
+    keyboard_.emplace();
+    screen_.tell_of_keys();
+  }
   if (options_.http.empty()) return;
   const std::string arm = options_.data_file.empty() ? "" : arm_event(options_.data_file, options_.model_file);
   page_.emplace(options_.http, options_.token_file, options_.place);
@@ -71,7 +76,15 @@ void MonitorOutput::take(const Message& message, double now_s) {
   if (options_.json) put_line(event_line(message, now_s));
 }
 
+void MonitorOutput::follow_keys() {
+  for (auto key = keyboard_->key(); key; key = keyboard_->key()) {
+    is_left_ = is_left_ || *key == 'q' || *key == 'Q';
+    if (*key == '?') screen_.toggle_legend();
+  }
+}
+
 void MonitorOutput::show(double now_s) {
+  if (keyboard_) follow_keys();
   if (recording_) recording_->tick(now_s);
   if (page_) return page_->tick(now_s);
   if (!options_.json && !options_.once) screen_.offer(watched_, now_s, std::exchange(changed_, false));

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "coordinator/displays.hpp"
+#include "coordinator/keyboard.hpp"
 #include "coordinator/live_page.hpp"
 #include "dds/dds_transport.hpp"
 #include "dds/ros2_publisher.hpp"
@@ -62,14 +63,20 @@ class MonitorOutput {
   void show(double now_s);
   /// The state as it is left.
   void finish(double now_s);
+  /// Whether the key was pressed that leaves the monitor; what it watches goes on.
+  bool is_left() const { return is_left_; }
   const Watched& watched() const { return watched_; }
 
  private:
+  void follow_keys();
+
   const MonitorOptions& options_;
   std::optional<RecordingFile> recording_;
   std::optional<LivePage> page_;
   std::optional<Ros2Publisher> ros2_;
   MonitorScreen screen_;
+  std::optional<Keyboard> keyboard_;  ///< after the screen: given back before it
+  bool is_left_ = false;
   Watched watched_;
   bool changed_ = true;
 };

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -34,20 +35,36 @@ std::string owner_of(const std::string& name) {
   return name.substr(0, name.find('_'));
 }
 
-/// Whether the poses say less of a link's number than was believed of it before: what the fit gives then is its maker's
-/// figure and how uncertain that was taken to be.
-bool is_undetermined(const ParameterEntry& parameter, const std::string& unit) {
-  constexpr double kShare = 0.7;
-  if (!parameter.name.starts_with("joint ") || !parameter.standard_error) return false;
-  const FitOptions usual;
-  return *parameter.standard_error > kShare * (unit == "mm" ? millimetres(usual.prior_m) : degrees(usual.prior_rad));
+/// The parameters of which the poses show only a combination, or nothing: those that the sentences on it name.
+std::set<std::string> parameters_in_combinations(const Report& report) {
+  std::set<std::string> names;
+  for (const ParameterEntry& parameter : report.parameters) {
+    for (const std::string& sentence : report.unidentified) {
+      const std::size_t at = sentence.find(parameter.name), end = at + parameter.name.size();
+      const bool is_whole = at != std::string::npos && (at == 0 || sentence[at - 1] == ' ') &&
+                            (end == sentence.size() || sentence[end] == ' ' || sentence[end] == ',');
+      if (is_whole) names.insert(parameter.name);
+    }
+  }
+  return names;
 }
 
-std::string parameter_row(const ParameterEntry& parameter) {
+/// Whether the poses add little to what was believed of the number before. Of a link that is its maker's figure and how
+/// far makers are off; the numbers of base and tool that the same poses show only together with a link's are as
+/// uncertain. Where a combination is shown, each of its numbers is its share of what was believed of all.
+bool is_undetermined(const ParameterEntry& parameter, const std::string& unit, bool in_combination) {
+  constexpr double kShare = 0.7, kShareInCombination = 0.1;
+  if (!parameter.standard_error) return false;
+  const FitOptions usual;
+  const double believed = unit == "mm" ? millimetres(usual.prior_m) : degrees(usual.prior_rad);
+  return *parameter.standard_error > (in_combination ? kShareInCombination : kShare) * believed;
+}
+
+std::string parameter_row(const ParameterEntry& parameter, bool in_combination) {
   const Unit unit = unit_in_name(parameter.name);
   const auto& [name, nominal, value, error] = parameter;
   const auto moved = nominal && value ? std::optional(*value - *nominal) : std::nullopt;
-  if (is_undetermined(parameter, unit.name)) {
+  if (is_undetermined(parameter, unit.name, in_combination)) {
     return table_row("<code>" + escaped(name) + "</code>",
                      {fixed(nominal, unit.decimals), "not determined", "–", "–", unit.name, "–"});
   }
@@ -59,12 +76,13 @@ std::string parameter_row(const ParameterEntry& parameter) {
 }
 
 std::string parameters_table(const Report& report) {
+  const std::set<std::string> combined = parameters_in_combinations(report);
   std::string rows, owner;
   for (const ParameterEntry& parameter : report.parameters) {
     const std::string its = owner_of(parameter.name);
     if (its != owner) rows += "<tr class=\"group\"><th colspan=\"7\" scope=\"row\">" + escaped(its) + "</th></tr>\n";
     owner = its;
-    rows += parameter_row(parameter);
+    rows += parameter_row(parameter, combined.contains(parameter.name));
   }
   if (rows.empty()) return rows;
   return "<div class=\"panel\"><table id=\"parameters\">\n<thead><tr><th scope=\"row\">parameter</th><th>nominal</th>"
@@ -151,11 +169,12 @@ std::string parameters_section(const Report& report) {
   return section("identified", "Identified parameters", parameters_table(report) + unidentified(report));
 }
 
-std::string poses_section(const Report& report) {
+std::string todo_section(const Report& report) {
   const Report::Poses& poses = report.poses;
   return section(
-      "poses", "Poses worth a look",
-      names_section("Suspected outliers", "Down-weighted in the fit, included in all errors.", poses.outliers) +
+      "todo", "What to do",
+      next_measurements_list(report) +
+          names_section("Suspected outliers", "Down-weighted in the fit, included in all errors.", poses.outliers) +
           names_section("Excluded by name",
                         "By the data set's `exclude`: no part of any figure; in brackets their own error.",
                         excluded_names(poses.excluded)) +

@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -37,6 +39,8 @@ std::string loop_summary(const Report& report) {
          (report.noise ? paragraph(escaped("Noise: " + noise_sentence(*report.noise) + ".")) : "");
 }
 
+constexpr std::array kCauseFigures{"of the error, mm", "95 %", "error without it", "with it", "effects", "what to do"};
+
 /// What it comes to: a row a cause, with what to do about it.
 std::string causes_table(const Report& report) {
   if (report.causes.empty()) return {};
@@ -45,14 +49,20 @@ std::string causes_table(const Report& report) {
     const std::string interval = cause.interval_mm.size() == 2
                                      ? fmt::format("{:.3f} to {:.3f}", cause.interval_mm[0], cause.interval_mm[1])
                                      : "";
-    rows += table_row(escaped(cause_name(cause)),
-                      {fixed(cause.cost_mm(), 3), interval, fixed(cause.without_mm, 3), fixed(cause.with_mm, 3),
-                       std::to_string(cause.effects.size()), escaped(cause.advice)});
+    const std::array<std::string, 6> cells{fixed(cause.cost_mm(), 3),
+                                           interval,
+                                           fixed(cause.without_mm, 3),
+                                           fixed(cause.with_mm, 3),
+                                           std::to_string(cause.effects.size()),
+                                           escaped(cause.advice)};
+    rows += "<tr><th scope=\"row\">" + escaped(cause_name(cause)) + "</th>";
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      rows += fmt::format("<td data-name=\"{}\">{}</td>", kCauseFigures[i], cells[i]);
+    rows += "</tr>\n";
   }
-  return table_panel("causes",
-                     "<th>cause</th><th>of the error, mm</th><th>95 %</th><th>error without it</th><th>with it</th>"
-                     "<th>effects</th><th>what to do</th>",
-                     rows, report.causes.size()) +
+  std::string heads = "<th>cause</th>";
+  for (const char* const figure : kCauseFigures) heads += fmt::format("<th>{}</th>", figure);
+  return table_panel("causes", heads, rows, report.causes.size()) +
          fmt::format(
              "<p class=\"note\">By how much the rms error of {} poses rises when a cause is left out and all else is "
              "fitted again; \"of the error\" is the root of the difference of squares.</p>\n",
@@ -202,12 +212,19 @@ std::string pictures(const Report& report) {
 
 }  // namespace
 
+std::string causes_section(const Report& report) {
+  return section("causes-found", "What the model lacked", causes_table(report) + unexplained_paragraph(report));
+}
+
 std::string loop_section(const Report& report) {
-  return section("loop", "What the model lacked",
-                 causes_table(report) + unexplained_paragraph(report) + front_table(report) + loop_summary(report) +
-                     rounds_table(report) + dropped(report) + pictures(report) + next_measurements_list(report) +
-                     evidence_table(report) + not_found_table(report) + untestable_table(report) +
-                     decoys_table(report));
+  return section("loop", "How it was found, round by round",
+                 loop_summary(report) + front_table(report) + rounds_table(report) + dropped(report) +
+                     pictures(report) + evidence_table(report));
+}
+
+std::string not_found_section(const Report& report) {
+  return section("loop-limits", "What was not found",
+                 not_found_table(report) + untestable_table(report) + decoys_table(report));
 }
 
 }  // namespace demecal::inline html

@@ -27,7 +27,7 @@ std::string words(const std::string& cell, const char* look = "") {
 
 std::string badge(const std::string& verdict) {
   const std::string look = verdict == "added" ? " yes" : (verdict == "rejected" ? " no" : "");
-  return "<span class=\"badge" + look + "\">" + escaped(verdict) + "</span>";
+  return "<span class=\"badge" + look + "\">" + (verdict == "none" ? "not significant" : escaped(verdict)) + "</span>";
 }
 
 std::string why(const std::string& sentence) {
@@ -169,7 +169,7 @@ std::string next_measurements_list(const Report& report) {
                          escaped(round.next_measurement->sentence));
   }
   if (items.empty()) return {};
-  return "<h3>What to measure next</h3>\n<p class=\"note\">These poses cannot distinguish the named effects from "
+  return "<h3>Measure next</h3>\n<p class=\"note\">These poses cannot distinguish the named effects from "
          "their rivals. "
          "The measurements below would, nine times out of ten with so many poses.</p>\n<ul class=\"plain\" "
          "id=\"next-measurements\">\n" +

@@ -95,7 +95,7 @@ thead th.set i { display: inline-block; width: 9px; height: 9px; border-radius: 
 .long thead th { position: sticky; top: 0; background: var(--card); padding-top: 12px; }
 td.words .why { display: block; color: var(--soft); font-size: 13px; } td.words.wide { min-width: 19em; }
 td.numbers { text-align: left; font-size: 13px; line-height: 1.45; } td.numbers span { display: block; }
-#causes :is(th:first-child, th:last-child, td:last-child) { text-align: left; } #causes :is(thead th, td:last-child) { white-space: normal; } #causes td:last-child { min-width: 16em; }
+#causes :is(th:first-child, th:last-child, td:last-child) { text-align: left; } #causes :is(thead th, td:last-child) { white-space: normal; } #causes td:last-child { min-width: 16em; } #causes th[scope="row"] { white-space: normal; min-width: 9em; max-width: 22em; }
 #evidence thead th { white-space: normal; } #evidence td.wide { min-width: 13em; }
 td code.law { font-size: 12.5px; overflow-wrap: anywhere; }
 table.compact { width: auto; min-width: 50%; }
@@ -157,6 +157,7 @@ svg.bars { min-width: 620px; }
 #pose-errors th:first-child, #pose-errors th:nth-child(2), #pose-errors td:nth-child(2), #pose-errors th:last-child { text-align: left; } #pose-errors tbody tr[tabindex] { cursor: pointer; } #pose-errors tbody tr:hover > *, #pose-errors tbody tr:focus > * { background: var(--idle-back); }
 details.folded { margin-top: 26px; border-top: 1px solid var(--line); } details.folded > summary { font-size: 19px; font-weight: 650; padding: 10px 0; cursor: pointer; }
 details.folded > section > h2 { display: none; }
+@media (max-width: 720px) { #causes thead { display: none; } #causes :is(tbody, tr, th, td) { display: block; text-align: left; max-width: none; border: 0; padding: 1px 0; } #causes tr { border-bottom: 1px solid var(--line); padding: 7px 0; } #causes th[scope="row"] { font-weight: 620; } #causes td::before { content: attr(data-name) ": "; color: var(--soft); } #causes td:last-child { padding-top: 3px; } }
 @media (max-width: 520px) { main { padding: 18px 12px 40px; } .panel { padding: 10px; } .pair { grid-template-columns: minmax(0, 1fr); } h1 { font-size: 24px; } .headline { font-size: 18px; } .headline b { white-space: normal; } }
 @media print {
   :root { color-scheme: light; --page: #ffffff; }
@@ -164,7 +165,11 @@ details.folded > section > h2 { display: none; }
   main { max-width: none; padding: 0; }
   .joint, .tile, tr, figure { break-inside: avoid; } h2, h3 { break-after: avoid; }
   .controls, .pose-name { display: none; } details.folded::details-content { content-visibility: visible; height: auto; } .wide { overflow: visible; }
-  .panel, .panel.long { overflow: visible; max-height: none; } .long thead th { position: static; } pre.formula { max-height: none; }
+  table { font-size: 9pt; } th, td { padding: 3px 5px; } thead th { white-space: normal; font-size: 8pt; } thead th.set { font-size: 8.5pt; }
+  th[scope="row"] { white-space: normal; } #errors { font-size: 7pt; } #errors :is(th, td) { padding: 2px; } svg.bars { min-width: 0; }
+  :is(#rounds, #evidence) { font-size: 7.5pt; } :is(#rounds, #evidence) :is(th, td, td.wide) { white-space: normal; min-width: 0; padding: 2px 3px; }
+  :is(#rounds, #evidence) :is(td.words, td.numbers, code.law) { font-size: 7.5pt; overflow-wrap: anywhere; }
+  .panel, .panel.long { overflow: visible; max-height: none; padding: 6px 8px; } .long thead th { position: static; } pre.formula { max-height: none; }
 }
 )css";
 

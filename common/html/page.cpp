@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <numbers>
 #include <optional>
+#include <set>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,7 +28,7 @@ std::string subject(const Report& report) {
   if (!report.job.empty()) add("job " + escaped(report.job));
   if (report.method == "direct" || report.method == "distal") add(report.method + " learning");
   for (const ReportPoseSet& set : kPoseSets) {
-    if (report.poses.*set.poses > 0) add(counted(report.poses.*set.poses, std::string(set.name) + " pose"));
+    if (const std::uint64_t rows = report.poses.*set.poses; rows > 0) add(pose_count_words(report, set.name, rows));
   }
   return "<p class=\"soft\">" + text + "</p>\n";
 }
@@ -47,7 +49,7 @@ std::string headline(const Report& report, const std::optional<Improvement>& jud
   const std::string outcome = before == 0.0 ? "" : ", " + percent + (after <= before ? " less" : " more");
   const std::string set = judged->set.name;
   const std::uint64_t poses = report.poses.*judged->set.poses;
-  const std::string measured = poses > 0 ? counted(poses, set + " pose") : set + " poses";
+  const std::string measured = poses > 0 ? pose_count_words(report, set, poses) : set + " poses";
   return fmt::format(
       "<p class=\"headline\">Mean tool error on {}: <b>{} mm → {} mm</b>{}.</p>\n"
       "<p class=\"soft\">From the stage “{}” to “{}”. {}</p>\n",
@@ -144,9 +146,23 @@ std::optional<double> noise_mean_mm(const Report& report) {
   return *report.noise_floor_mm * std::sqrt(8.0 / std::numbers::pi);
 }
 
+std::string pose_count_words(const Report& report, const std::string& set, std::uint64_t rows) {
+  std::set<std::string> ids, targets;
+  for (const PoseErrorEntry& pose : report.pose_errors) {
+    if (!set.empty() && pose.set != set) continue;
+    ids.insert(pose.id);
+    targets.insert(pose.target);
+  }
+  const std::string what = (set.empty() ? "" : set + " ") + "pose";
+  if (targets.size() < 2) return counted(rows, what);
+  return counted(ids.size(), what) + fmt::format(" of {} targets", targets.size());
+}
+
 std::string report_html(const Report& report, const FitnessHistory& history) {
-  return page_head(report) + "<body>\n<main>\n" + opening(report) + loop_section(report) + stations_section(report) +
-         contacts_section(report) + where_section(report) + stages_section(report) + poses_section(report) +
+  return page_head(report) + "<body>\n<main>\n" + opening(report) + causes_section(report) + where_section(report) +
+         todo_section(report) + stations_section(report) + contacts_section(report) + stages_section(report) +
+         folded("How it was found, round by round", loop_section(report)) +
+         folded("What was not found", not_found_section(report)) +
          folded("Corrections of the joints", joints_section(report, history)) +
          folded("Identified numbers", parameters_section(report)) + folded("The run", run_section(report)) +
          "</main>\n</body>\n</html>\n";

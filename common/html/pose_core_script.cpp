@@ -25,6 +25,10 @@ const flagNames = ["outlier", "near singular", "outside what was measured"];
 const flagsOf = i => flagNames.filter((_, bit) => data.flags[i] >> bit & 1).join(", ");
 const nameOf = i => data.id[i] + (data.target[i] ? " " + data.target[i] : "");
 const mm = value => value === null || value === undefined ? "\u2013" : value.toFixed(3);
+const targets = new Set(data.target).size;
+/// So many measurements, as poses: each may have been measured by several targets.
+const poseCount = rows => targets < 2 ? rows.length + " poses" : rows.length + " measurements (" +
+  new Set(rows.map(i => data.id[i])).size + " poses of " + targets + " targets)";
 const known = values => values.filter(value => value !== null && value !== undefined);
 const sorted = values => Float64Array.from(known(values)).sort();
 const share = (ascending, part) => ascending.length === 0 ? 0
@@ -77,18 +81,20 @@ const picture = (canvas, height, paint) => {
   return draw;
 };
 
-/// Points at the pose nearest to the pointer among places [x, y, pose], no further than 14 px.
+/// Points at the pose nearest to the pointer among places [x, y, pose], no further than 14 px; of a finger, which is
+/// broader, and comes down where it points, 24 px.
 const hover = (canvas, places) => {
-  canvas.addEventListener("pointermove", event => {
-    if (event.buttons !== 0) return;
+  const find = event => {
     const box = canvas.getBoundingClientRect(), x = event.clientX - box.left, y = event.clientY - box.top;
-    let best = -1, least = 14 * 14;
+    let best = -1, least = (event.pointerType === "touch" ? 24 : 14) ** 2;
     for (const place of places()) {
       const away = (place[0] - x) ** 2 + (place[1] - y) ** 2;
       if (away < least) { least = away; best = place[2]; }
     }
     if (best !== -1) point(best);
-  });
+  };
+  canvas.addEventListener("pointermove", event => { if (event.buttons === 0) find(event); });
+  canvas.addEventListener("pointerdown", find);
 };
 
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", redraw);
@@ -139,7 +145,7 @@ const show = () => {
     cell(row, flagsOf(i), "words");
   }
   byId("pose-pages").textContent = chosen.rows.length === 0 ? "no pose" : (from + 1) + " to " + (from + rows.length) +
-    " of " + chosen.rows.length + " poses";
+    " of " + poseCount(chosen.rows);
   byId("pose-back").disabled = table.page === 0;
   byId("pose-on").disabled = table.page === pages - 1;
 };

@@ -7,6 +7,7 @@ namespace demecal::inline html {
 
 std::string_view pose_plots_script() {
   return R"js(
+const measured = targets < 2 ? "poses" : "measurements";
 /// Round values within a range, about `wanted` of them.
 const ticks = (low, high, wanted) => {
   const rough = Math.max((high - low) / wanted, 1e-12), power = 10 ** Math.floor(Math.log10(rough));
@@ -75,7 +76,7 @@ picture(byId("plot-histogram"), 240, (pen, width, height) => {
     for (const value of list) ++heights[Math.max(0, Math.min(bins - 1, Math.floor(Math.log(value / low) / step)))];
     return heights;
   });
-  const [px, py] = axes(pen, width, height, now.range, [0, 1.05 * Math.max(1, ...counts.flat())], ["error, mm (logarithmic)", "poses"], true);
+  const [px, py] = axes(pen, width, height, now.range, [0, 1.05 * Math.max(1, ...counts.flat())], ["error, mm (logarithmic)", measured], true);
   counts.forEach((heights, which) => {
     pen.fillStyle = colour(now.lists[which][1]);
     pen.globalAlpha = 0.7;
@@ -90,7 +91,7 @@ picture(byId("plot-histogram"), 240, (pen, width, height) => {
 picture(byId("plot-cumulative"), 240, (pen, width, height) => {
   const now = errorsNow();
   if (!now) return;
-  const [px, py] = axes(pen, width, height, now.range, [0, 100], ["error, mm (logarithmic)", "% of poses within"], true);
+  const [px, py] = axes(pen, width, height, now.range, [0, 100], ["error, mm (logarithmic)", "% of " + measured + " within"], true);
   for (const [list, name] of now.lists) {
     pen.strokeStyle = colour(name);
     pen.lineWidth = 2;

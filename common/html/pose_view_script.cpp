@@ -66,13 +66,14 @@ const centrePose = () => {
 };
 const resting = viewed ? centrePose() : -1;
 
-const inSlice = i => {
+/// The axis that is sliced, the middle of the slice and half its thickness, mm; nothing where all is shown.
+const sliceNow = () => {
   const axis = byId("view-slice").value;
-  if (axis === "") return true;
+  if (axis === "") return null;
   const k = Number(axis), low = bounds.points.low[k], high = bounds.points.high[k];
-  const at = low + Number(byId("view-slice-at").value) / 100 * (high - low);
-  return Math.abs(data.p[3 * i + k] - at) <= Math.max(0.06 * (high - low), 1e-9);
+  return {k, at: low + Number(byId("view-slice-at").value) / 100 * (high - low), half: Math.max(0.06 * (high - low), 1e-9)};
 };
+const inSlice = (i, slice) => slice === null || Math.abs(data.p[3 * i + slice.k] - slice.at) <= slice.half;
 
 const paintView = (pen, width, height) => {
   const factor = 10 ** Number(byId("view-exaggeration").value), which = byId("view-vectors").value;
@@ -94,14 +95,16 @@ const paintView = (pen, width, height) => {
     places.forEach((at, k) => k === 0 ? pen.moveTo(at[0], at[1]) : pen.lineTo(at[0], at[1]));
     pen.stroke();
   };
-  const shown = [];
+  const shown = [], slice = sliceNow();
   for (const i of chosen.rows) {
-    if (errors[i] === null || !inSlice(i)) continue;
+    if (errors[i] === null || !inSlice(i, slice)) continue;
     const p = [data.p[3 * i], data.p[3 * i + 1], data.p[3 * i + 2]], at = place(...p);
     shown.push([at[0], at[1], i, at[2], p]);
   }
   shown.sort((a, b) => b[3] - a[3]);
   view.places = shown;
+  byId("view-slice-place").textContent = slice === null ? "" : "xyz"[slice.k] + " = " + slice.at.toFixed(0) + " \u00B1 " +
+    slice.half.toFixed(slice.half < 10 ? 1 : 0) + " mm, " + shown.length + " " + (targets < 2 ? "poses" : "measurements");
   const vectors = (error, style) => {
     if (error.length !== 3 * count) return;
     pen.strokeStyle = style;

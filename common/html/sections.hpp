@@ -2,6 +2,7 @@
 // and the scripts of the part on single poses, which stand in it one after the other as one function.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -18,14 +19,18 @@ std::string stages_section(const Report& report);
 std::string contacts_section(const Report& report);
 /// The errors of each station's poses, where there are several.
 std::string stations_section(const Report& report);
-/// What the closed loop tried, found and could not find.
+/// The causes of the error, and what none explains.
+std::string causes_section(const Report& report);
+/// How the closed loop found them, round by round.
 std::string loop_section(const Report& report);
+/// What the closed loop looked for and did not find, could not have found, and its controls.
+std::string not_found_section(const Report& report);
 /// Every joint's error, correction and evolution.
 std::string joints_section(const Report& report, const FitnessHistory& history);
 /// The identified numbers, and what these poses cannot identify.
 std::string parameters_section(const Report& report);
-/// Poses that were noticed, by name.
-std::string poses_section(const Report& report);
+/// What to measure next, and the poses that deserve a look, by name.
+std::string todo_section(const Report& report);
 /// Every pose with its error: a view of the arm, plots, and a table that sorts and filters; with their script.
 std::string where_section(const Report& report);
 /// What the script of where_section() reads: JSON without a character that HTML could take for markup.
@@ -34,6 +39,10 @@ std::string pose_data(const Report& report);
 std::string folded(const std::string& title, const std::string& body);
 /// What the run took, and what repeats it.
 std::string run_section(const Report& report);
+
+/// "40 calibration poses", or "40 calibration poses of 3 targets": poses by their ids, each of which may have been
+/// measured by several targets. `set`: a set's name, or empty for all.
+std::string pose_count_words(const Report& report, const std::string& set, std::uint64_t rows);
 
 /// The mean tool error (mm) that the measurement's noise alone makes, from the floor's standard deviation per axis.
 std::optional<double> noise_mean_mm(const Report& report);

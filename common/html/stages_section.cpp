@@ -32,8 +32,8 @@ std::string stages_head(const Report& report, const Stages& stages) {
   std::string sets, figures;
   for (const ReportPoseSet& set : measured_sets(stages)) {
     const std::uint64_t count = report.poses.*set.poses;
-    const std::string poses = count > 0 ? fmt::format(" ({})", count) : "";
-    sets += fmt::format("<th class=\"set first\" colspan=\"4\"><i class=\"key {0}\"></i>{0}{1}</th>", set.name, poses);
+    const std::string poses = count > 0 ? pose_count_words(report, set.name, count) : set.name;
+    sets += fmt::format("<th class=\"set first\" colspan=\"4\"><i class=\"key {}\"></i>{}</th>", set.name, poses);
     figures += "<th class=\"first\">mean</th><th>rms</th><th>P95</th><th>max</th>";
   }
   return "<thead><tr><th rowspan=\"2\"></th>" + sets + "</tr>\n<tr>" + figures + "</tr></thead>\n";

@@ -86,7 +86,8 @@ std::string pose_table(const Report& report) {
          heads + "</tr></thead>\n<tbody>\n" + rows +
          "</tbody></table></div>\n<div class=\"controls\"><button type=\"button\" id=\"pose-back\" "
          "aria-label=\"previous poses\">‹</button><span id=\"pose-pages\">" +
-         fmt::format("the {} largest errors of {} poses", largest.size(), report.pose_errors.size()) +
+         fmt::format("the {} largest errors of {}", largest.size(),
+                     pose_count_words(report, "", report.pose_errors.size())) +
          "</span><button type=\"button\" id=\"pose-on\" aria-label=\"next poses\">›</button></div>\n</div>\n";
 }
 
@@ -122,7 +123,7 @@ constexpr std::string_view kView = R"html(<div class="panel" id="view">
 <label>show <select id="view-vectors"><option value="after">after</option><option value="both">before and after</option><option value="before">before</option><option value="none">none</option></select></label>
 <label>colour by error <select id="view-colour"><option value="after">after</option><option value="before">before</option></select></label>
 <label>slice <select id="view-slice"><option value="">all</option><option value="0">along x</option><option value="1">along y</option><option value="2">along z</option></select></label>
-<label>at <input id="view-slice-at" type="range" min="0" max="100" value="50"></label>
+<label>at <input id="view-slice-at" type="range" min="0" max="100" value="50"><span id="view-slice-place"></span></label>
 <span class="buttons"><button type="button" data-view="left" aria-label="turn left">←</button><button type="button" data-view="right" aria-label="turn right">→</button><button type="button" data-view="up" aria-label="tilt up">↑</button><button type="button" data-view="down" aria-label="tilt down">↓</button><button type="button" data-view="nearer" aria-label="nearer">+</button><button type="button" data-view="further" aria-label="further">−</button><button type="button" data-view="reset">reset</button></span>
 </div>
 <p class="note">In the frame of the measurements. Lines lead from a position the way it was missed, grey before and blue after, exaggerated.</p>

@@ -21,84 +21,6 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// Keeps the heading and the last rows, and says how many are missing.
-Lines with_last_rows(Lines lines, const TableOptions& options) {
-  if (options.rows == 0 || lines.size() <= options.rows + 1) return lines;
-  const std::size_t missing = lines.size() - 1 - options.rows;
-  lines.erase(lines.begin() + 1, lines.begin() + 1 + static_cast<std::ptrdiff_t>(missing));
-  lines.front() += styled(fmt::format("  ({} more)", missing), TextStyle::faint, options.colours);
-  return lines;
-}
-
-std::string presence_of(const WatchedWorker& worker) {
-  switch (worker.presence) {
-    case WatchedWorker::Presence::left:
-      return "left";
-    case WatchedWorker::Presence::lost:
-      return "lost";
-    case WatchedWorker::Presence::here:
-      break;
-  }
-  return percent(worker.status.waited_share);
-}
-
-/// How many islands of the run the worker was the last to tell of.
-std::ptrdiff_t islands_of(const WatchedWorker& worker, const WatchedRun* run) {
-  if (run == nullptr) return 0;
-  return std::ranges::count_if(run->islands,
-                               [&](const auto& island) { return island.second.worker == worker.status.worker; });
-}
-
-/// The cells of a worker's line, as texts.
-struct WorkerCells {
-  std::string tag, host, process, slots, islands, speed, waited;
-};
-
-std::string worker_line(const WorkerCells& cells, std::size_t columns) {
-  constexpr std::size_t kTag = 5, kProcess = 10, kFigureRoom = 31, kFewestForProcess = 64;
-  const std::size_t process_room = columns < kFewestForProcess ? 0 : kProcess;
-  const std::size_t host_room = std::min<std::size_t>(columns - kTag - process_room - kFigureRoom, 40);
-  return left_aligned(cells.tag, kTag) + left_aligned(cells.host, host_room) +
-         (process_room == 0 ? "" : right_aligned(cells.process, process_room)) + right_aligned(cells.slots, 7) +
-         right_aligned(cells.islands, 9) + right_aligned(cells.speed, 8) + right_aligned(cells.waited, 7);
-}
-
-std::string metres_in_mm(double value_m) {
-  return std::isfinite(value_m) ? fmt::format("{:.3f}", 1e3 * value_m) : "–";
-}
-
-/// Of a table whose lines are numbered: what the line is of, its figures and, where there is room, a sentence.
-struct NumberedCells {
-  std::uint32_t number = 0;
-  std::string label, figures, text;
-};
-
-std::string numbered_line(const NumberedCells& cells, std::size_t columns) {
-  const std::size_t room = columns - 5 - 20;
-  const std::size_t label_room = std::min<std::size_t>(room, 42);
-  std::string line = right_aligned(std::to_string(cells.number), 3) + "  " + left_aligned(cells.label, label_room) +
-                     right_aligned(cells.figures, 20);
-  if (columns > display_width(line) + 20 && !cells.text.empty()) {
-    line += "  " + truncated(cells.text, columns - display_width(line) - 2);
-  }
-  return line;
-}
-
-std::string from_to_in_mm(double from_m, double to_m) {
-  return metres_in_mm(from_m) + " -> " + metres_in_mm(to_m);
-}
-
-std::string round_line(const LoopNews& round, std::size_t columns) {
-  const bool is_added = round.verdict == LoopNews::Verdict::added;
-  return numbered_line(
-      {round.round, round.label.empty() ? "nothing" : round.label,
-       is_added ? from_to_in_mm(round.validation_before_m, round.validation_after_m) : to_string(round.verdict),
-       round.text},
-      columns);
-}
-
-using Lines = std::vector<std::string>;
-
 constexpr std::size_t kFewestColumns = 40;
 constexpr std::size_t kFewestGridLines = 4;
 
@@ -122,7 +44,8 @@ class Page {
 
  private:
   bool is_evolving() const;
-  std::string title() const;
+  Lines title() const;
+  std::string keys_line() const;
   std::string stage() const;
   std::string time_left() const;
   Lines progress() const;
@@ -144,14 +67,21 @@ std::string Page::stage() const {
   return to_string(news.stage);
 }
 
-std::string Page::title() const {
+std::string Page::keys_line() const {
+  const char* const about = options_.legend ? "?: hide what the columns mean" : "?: what the columns mean";
+  return paint(truncated(std::string("q: leave, the run goes on   ") + about, columns_), TextStyle::faint);
+}
+
+Lines Page::title() const {
   std::string name = calibration_ != nullptr ? calibration_->stage.job : "";
   if (name.empty() && run_ != nullptr) name = run_->data.job;
   std::string text = "demecal monitor";
   if (!name.empty()) text += "  " + name;
   const bool evolves = run_ != nullptr && run_->has_data();
   const std::string size = evolves ? fmt::format("{} generations", run_->data.parameters.number_generations) : "";
-  return both_ends(text + "  " + stage(), size, columns_);
+  text += "  " + stage();
+  if (options_.lines == 0 && display_width(text) > columns_) return wrapped_lines(text, columns_, 2);
+  return {both_ends(text, size, columns_)};
 }
 
 bool Page::is_evolving() const {
@@ -170,24 +100,21 @@ Lines Page::progress() const {
   if (run_ == nullptr || !run_->has_data()) return {};
   double taken = 0.0;
   for (const auto& [key, island] : run_->islands) taken += static_cast<double>(island.migrants_taken);
-  const std::string end = fmt::format(" {:>4}", percent(share_done(*run_)));
-  const BarParts parts = bar_parts(share_done(*run_), columns_ - display_width(end));
   std::string counts = short_count(static_cast<double>(run_->evaluations)) + " evaluations";
   const double speed = is_evolving() ? evaluations_per_s(watched_, *run_, options_.now_s) : 0.0;
   if (speed > 0.0) counts += ", " + short_count(speed) + "/s";
   counts += ", " + short_count(taken) + " migrants taken";
-  return {paint(parts.full, TextStyle::bar) + paint(parts.empty, TextStyle::faint) + end,
-          both_ends(counts, time_left(), columns_)};
+  return {progress_bar(watched_, columns_, options_.colours), both_ends(counts, time_left(), columns_)};
 }
 
 /// What stands under the islands.
 Lines Page::below() const {
   const bool is_short = options_.lines != 0;
   Lines lines;
-  for (const Lines& table : {worker_lines(watched_, options_.now_s, {columns_, is_short ? 6U : 0U, options_.colours}),
-                             round_lines(calibration_, {columns_, is_short ? 6U : 0U, options_.colours}),
-                             cause_lines(calibration_, {columns_, is_short ? 6U : 0U, options_.colours}),
-                             event_lines(watched_, options_.now_s, {columns_, 3, options_.colours})}) {
+  const TableOptions some{columns_, is_short ? 6U : 0U, options_.colours, !is_short};
+  const TableOptions latest{columns_, 3, options_.colours, !is_short};
+  for (const Lines& table : {worker_lines(watched_, options_.now_s, some), round_lines(calibration_, some),
+                             cause_lines(calibration_, some), event_lines(watched_, options_.now_s, latest)}) {
     if (table.empty()) continue;
     lines.emplace_back();
     lines.insert(lines.end(), table.begin(), table.end());
@@ -200,13 +127,23 @@ Lines Page::below() const {
 
 Lines Page::lines() const {
   if (!watched_.has_seen_anything()) {
-    return {truncated("demecal monitor  nobody is calibrating in " + options_.place + " yet", columns_)};
+    Lines lines = wrapped_lines("demecal monitor: nobody is calibrating in " + options_.place + " yet", columns_, 2);
+    if (!options_.keys) return lines;
+    if (options_.legend) {
+      for (const std::string& line : column_legend(columns_, options_.colours)) lines.push_back(line);
+    }
+    lines.push_back(keys_line());
+    return lines;
   }
-  Lines lines{paint(title(), TextStyle::strong)};
+  Lines lines;
+  for (const std::string& line : title()) lines.push_back(paint(line, TextStyle::strong));
   for (const std::string& line : progress()) lines.push_back(line);
+  if (options_.legend && run_ != nullptr && run_->has_data()) {
+    for (const std::string& line : column_legend(columns_, options_.colours)) lines.push_back(line);
+  }
   const Lines under = below();
   if (run_ != nullptr && run_->has_data()) {
-    const std::size_t taken = lines.size() + 1 + under.size();
+    const std::size_t taken = lines.size() + 1 + under.size() + (options_.keys ? 1 : 0);
     const std::size_t room = options_.lines > taken ? options_.lines - taken : 0;
     const std::size_t grid_lines = options_.lines == 0 ? 0 : std::max(room, kFewestGridLines);
     lines.emplace_back();
@@ -215,74 +152,13 @@ Lines Page::lines() const {
     }
   }
   lines.insert(lines.end(), under.begin(), under.end());
-  if (options_.lines != 0 && lines.size() > options_.lines) lines.resize(options_.lines);
+  const std::size_t room = options_.lines - (options_.keys && options_.lines > 1 ? 1 : 0);
+  if (options_.lines != 0 && lines.size() > room) lines.resize(room);
+  if (options_.keys) lines.push_back(keys_line());
   return lines;
 }
 
 }  // namespace
-
-std::vector<std::string> worker_lines(const Watched& watched, double now_s, const TableOptions& options) {
-  const auto workers = watched.workers();
-  if (workers.empty()) return {};
-  const WorkerCells heading{"", "worker's host", "process", "slots", "islands", "eval/s", "wait"};
-  Lines lines{styled(worker_line(heading, options.columns), TextStyle::faint, options.colours)};
-  for (std::size_t i = 0; i < workers.size(); ++i) {
-    const WatchedWorker& worker = *workers[i];
-    const WorkerStatus& status = worker.status;
-    const WatchedRun* run = watched.run();
-    const bool is_here = worker.presence == WatchedWorker::Presence::here;
-    const double speed = run != nullptr && is_here ? evaluations_per_s(watched, *run, worker, now_s) : 0.0;
-    const std::string line = worker_line(
-        {fmt::format("w{}", i + 1), status.host, std::to_string(status.process), std::to_string(status.slots),
-         std::to_string(islands_of(worker, run)), speed > 0.0 ? short_count(speed) : "–", presence_of(worker)},
-        options.columns);
-    const TextStyle ink = is_here                                            ? TextStyle::plain
-                          : worker.presence == WatchedWorker::Presence::lost ? TextStyle::bad
-                                                                             : TextStyle::faint;
-    lines.push_back(styled(line, ink, options.colours));
-  }
-  return with_last_rows(std::move(lines), options);
-}
-
-std::vector<std::string> round_lines(const WatchedCalibration* calibration, const TableOptions& options) {
-  if (calibration == nullptr || calibration->rounds.empty()) return {};
-  const auto added = std::ranges::count_if(
-      calibration->rounds, [](const auto& round) { return round.second.verdict == LoopNews::Verdict::added; });
-  const std::string heading =
-      fmt::format("{} effect{} found; mean error on validation poses, mm", added, added == 1 ? "" : "s");
-  Lines lines{styled(truncated(heading, options.columns), TextStyle::faint, options.colours)};
-  for (const auto& [number, round] : calibration->rounds) {
-    const TextStyle ink = round.verdict == LoopNews::Verdict::added ? TextStyle::good : TextStyle::faint;
-    lines.push_back(styled(round_line(round, options.columns), ink, options.colours));
-  }
-  return with_last_rows(std::move(lines), options);
-}
-
-std::vector<std::string> cause_lines(const WatchedCalibration* calibration, const TableOptions& options) {
-  if (calibration == nullptr || calibration->causes.empty()) return {};
-  const std::size_t count = calibration->causes.size();
-  const std::string heading = fmt::format(
-      "{} cause{} of error; rms error on validation poses without it -> with it, mm", count, count == 1 ? "" : "s");
-  Lines lines{styled(truncated(heading, options.columns), TextStyle::faint, options.colours)};
-  for (const auto& [number, cause] : calibration->causes) {
-    if (options.rows != 0 && lines.size() > options.rows) break;
-    const std::string figures = from_to_in_mm(cause.without_m, cause.with_m);
-    lines.push_back(numbered_line({number, cause.label, figures, cause.advice}, options.columns));
-  }
-  return lines;
-}
-
-std::vector<std::string> event_lines(const Watched& watched, double now_s, const TableOptions& options) {
-  const auto& notices = watched.notices();
-  if (notices.empty()) return {};
-  const std::size_t count = notices.size();
-  Lines lines;
-  for (std::size_t i = options.rows != 0 && count > options.rows ? count - options.rows : 0; i < count; ++i) {
-    const std::string text = short_time(now_s - notices[i].time_s) + " ago: " + notices[i].text;
-    lines.push_back(styled(truncated(text, options.columns), TextStyle::faint, options.colours));
-  }
-  return lines;
-}
 
 std::vector<std::string> monitor_page(const Watched& watched, const PageOptions& options) {
   return Page(watched, options).lines();

@@ -64,6 +64,29 @@ std::string wrapped(const std::string& first, const std::string& text, std::size
   return all + line + "\n";
 }
 
+std::vector<std::string> wrapped_lines(const std::string& text, std::size_t columns, std::size_t indent) {
+  std::vector<std::string> lines;
+  std::string line;
+  bool is_begun = false;
+  const auto begin_next = [&] {
+    lines.push_back(std::exchange(line, std::string(indent, ' ')));
+    is_begun = false;
+  };
+  std::istringstream words(text);
+  for (std::string word; words >> word;) {
+    if (is_begun && display_width(line) + 1 + display_width(word) > columns) begin_next();
+    if (is_begun) line += ' ';
+    is_begun = true;
+    for (const char byte : word) {
+      if (begins_letter(byte) && display_width(line) == columns) begin_next();
+      line += byte;
+      is_begun = true;
+    }
+  }
+  if (is_begun) lines.push_back(line);
+  return lines;
+}
+
 std::string short_real(double value) {
   constexpr std::size_t kMost = 7;
   if (std::isnan(value)) return "–";

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 namespace demecal::inline terminal {
 
@@ -21,6 +22,10 @@ std::string right_aligned(const std::string& text, std::size_t columns);
 /// `first` and the words of `text` after it, in lines of at most kTerminalColumns that begin with `indent` (at least
 /// 1) blanks but for the first.
 std::string wrapped(const std::string& first, const std::string& text, std::size_t indent);
+
+/// The words of `text` in lines of at most `columns`, without ends, that begin with `indent` blanks but for the first.
+/// Words that are longer than a line are cut into several.
+std::vector<std::string> wrapped_lines(const std::string& text, std::size_t columns, std::size_t indent);
 
 /// Colours of terminal text, or none.
 enum class TextStyle { plain, strong, faint, good, bad, bar };

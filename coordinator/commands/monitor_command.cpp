@@ -60,7 +60,7 @@ bool is_complete(const Watched& watched, double now_s) {
 ExitCode watch(Transport& transport, const std::atomic<bool>& stop, const MonitorOptions& options) {
   const MonitorClock::time_point begin = MonitorClock::now();
   MonitorOutput output(options);
-  while (!stop) {
+  while (!stop && !output.is_left()) {
     const auto message = transport.receive(kRefreshInterval);
     const double now_s = watched_s_since(begin);
     if (message) output.take(*message, now_s);
@@ -86,12 +86,12 @@ ExitCode replay(const std::string& path, const std::atomic<bool>& stop, const Mo
   double time_s = 0.0;
   for (const Event& event : events) {
     time_s = std::max(time_s, event.time_s);
-    while (!stop && !options.once && watched_s_since(begin) * options.speed < time_s) {
+    while (!stop && !output.is_left() && !options.once && watched_s_since(begin) * options.speed < time_s) {
       output.show(watched_s_since(begin) * options.speed);
       const std::chrono::duration<double> left(time_s / options.speed - watched_s_since(begin));
       std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(left, kRefreshInterval));
     }
-    if (stop) break;
+    if (stop || output.is_left()) break;
     output.take(event.message, time_s);
   }
   output.finish(time_s);

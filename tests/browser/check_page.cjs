@@ -75,6 +75,7 @@ const cutOff = page => page.evaluate(() => {
     seen.slider_draws = still !== exaggerated;
     seen.button_turns = exaggerated !== turned;
     seen.slice_draws = turned !== sliced;
+    seen.slice_place = await page.$eval("#view-slice-place", element => element.textContent);
     await page.focus("#view-canvas");
     await page.keyboard.press("ArrowUp");
     await settled(page);
@@ -101,12 +102,36 @@ const cutOff = page => page.evaluate(() => {
     seen.first_row = await page.$eval("#pose-errors tbody tr", row => row.cells[0].textContent);
     await page.mouse.move(1, 1);
 
+    // A finger has no hover: it comes down on a pose.
+    await page.$eval("#pose-name", element => { element.textContent = ""; });
+    await page.$eval("#plot-against", canvas => canvas.scrollIntoView({block: "center"}));
+    const under = await (await page.$("#plot-against")).boundingBox();
+    const tapped = () => page.$eval("#pose-name", element => element.textContent);
+    for (let x = 60; x < under.width - 10 && await tapped() === ""; x += 24) {
+      for (let y = 20; y < under.height - 40 && await tapped() === ""; y += 24)
+        await page.touchscreen.tap(under.x + x, under.y + y);
+    }
+    seen.tapped = await tapped();
+
+    const advice = () => page.evaluate(() => {
+      const table = document.getElementById("causes");
+      return table ? table.parentElement.scrollWidth - table.parentElement.clientWidth : 0;
+    });
+    seen.causes_beyond_at_1280 = await advice();
     await page.evaluate(() => { for (const part of document.querySelectorAll("details")) part.open = true; });
     await page.setViewport({width: 400, height: 800});
     await settled(page);
     seen.cut_at_400 = await cutOff(page);
     seen.width_at_400 = await page.evaluate(() => document.documentElement.scrollWidth);
+    seen.causes_beyond_at_400 = await advice();
     await shot("narrow");
+    // The width of A4 within the browser's margins.
+    await page.emulateMediaType("print");
+    await page.setViewport({width: 718, height: 1000});
+    await settled(page);
+    seen.cut_in_print = await page.$$eval("table", tables => tables.map(table =>
+      table.id + " " + Math.ceil(table.getBoundingClientRect().right)).filter(text => Number(text.split(" ")[1]) > 718));
+    await page.emulateMediaType(null);
     await page.emulateMediaFeatures([{name: "prefers-color-scheme", value: "dark"}]);
     await page.setViewport({width: 1280, height: 900});
     await settled(page);

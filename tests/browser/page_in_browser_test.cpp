@@ -79,6 +79,12 @@ void expect_usable(const Json& seen) {
   for (const char* const deed : {"slider_draws", "button_turns", "slice_draws", "key_tilts", "plots_differ"})
     EXPECT_EQ(seen[deed], true) << deed;
   EXPECT_THAT(seen["hovered"].get<std::string>(), HasSubstr("mm before"));
+  EXPECT_THAT(seen["tapped"].get<std::string>(), HasSubstr("mm before"));
+  EXPECT_THAT(seen["slice_place"].get<std::string>(),
+              ::testing::MatchesRegex("z = -?[0-9]+ ± [0-9.]+ mm, [0-9]+ poses"));
+  EXPECT_LE(seen["causes_beyond_at_1280"], 0);
+  EXPECT_LE(seen["causes_beyond_at_400"], 0);
+  EXPECT_THAT(seen["cut_in_print"], IsEmpty()) << seen["cut_in_print"];
   EXPECT_TRUE(seen["picked"].get<std::string>().starts_with(seen["first_row"].get<std::string>() + " ("));
   EXPECT_THAT(seen["cut_at_400"], IsEmpty()) << seen["cut_at_400"];
   EXPECT_LE(seen["width_at_400"], 400);
@@ -87,7 +93,11 @@ void expect_usable(const Json& seen) {
 }
 
 TEST_F(PageInBrowser, AnswersWhoeverUsesIt) {
-  const Report report = with_measured_poses(made_up_looped_report(27), 300);
+  Report report = with_measured_poses(made_up_looped_report(27), 300);
+  CauseEntry cause;
+  cause.name = "bearings of joint 2, or the elasticity of what stands between it and joint 3, whichever bends more";
+  cause.advice = "Measure with two payloads at poses where the upper arm is level, then look at the bearings first.";
+  report.causes.assign(2, cause);
   expect_usable(used(report_html(report, fitness_of(made_up_history(6, 3, 10)))));
 }
 

@@ -47,13 +47,38 @@ TEST(LoopPage, HasEveryRoundWithItsFiguresAndSentences) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const RoundEntry& round = report.rounds[i];
       EXPECT_EQ(rows[i].at(0), std::to_string(round.round));
-      EXPECT_EQ(rows[i].at(1), round.verdict);
+      EXPECT_EQ(rows[i].at(1), round.verdict == "none" ? "not significant" : round.verdict);
       EXPECT_THAT(rows[i].at(2), HasSubstr(round.effect.kind));
       EXPECT_THAT(rows[i].at(2), HasSubstr(round.diagnosis + round.reason));
       EXPECT_EQ(rows[i].at(5), rounded(*round.validation_before_mm, 3));
       EXPECT_EQ(rows[i].at(6), rounded(*round.validation_after_mm, 3));
     }
     EXPECT_THAT(rows_of(loop_page_of(report), "evidence"), SizeIs(rows.size()));
+  }
+}
+
+TEST(LoopPage, HasTheAnswerOpenAndHowItWasFoundFolded) {
+  Report report = made_up_looped_report(5);
+  report.unexplained = UnexplainedEntry{.error_mm = 0.26, .left_mm = 0.3, .noise_mm = 0.15, .advice = "Measure more."};
+  report.pose_errors = {{"P1", "", "accept", {}, 0.1, {}}};
+  report.poses.outliers = {"P7"};
+  const std::string page = loop_page_of(report);
+  std::string open = page;
+  for (std::size_t at = open.find("<details"); at != std::string::npos; at = open.find("<details"))
+    open.erase(at, open.find("</details>", at) - at);
+  EXPECT_THAT(page, Not(HasSubstr("<details class=\"folded\" open")));
+  std::size_t before = 0;
+  for (const char* const part : {"class=\"headline\"", "id=\"causes-found\"", "id=\"where\"", "id=\"todo\""}) {
+    const std::size_t at = open.find(part);
+    ASSERT_NE(at, std::string::npos) << part;
+    EXPECT_GT(at, before) << part;
+    before = at;
+  }
+  EXPECT_THAT(open, HasSubstr("id=\"next-measurements\""));
+  for (const char* const machinery :
+       {"id=\"rounds\"", "id=\"evidence\"", "id=\"not-found\"", "id=\"decoys\"", "id=\"parameters\"", "nats"}) {
+    EXPECT_THAT(page, HasSubstr(machinery));
+    EXPECT_THAT(open, Not(HasSubstr(machinery)));
   }
 }
 
@@ -85,7 +110,7 @@ TEST(LoopPage, ReadsARoundThatHasOnlyThePromisedKeys) {
   EXPECT_THAT(table_of(page, "rounds"),
               ElementsAre(ElementsAre("1", "added", "backlash, joint 2", "", "0.001", "0.771", "0.402", "-48\u00A0%",
                                       "hysteresis, joint 2 (cosine 0.93)"),
-                          ElementsAre("2", "none", "", "", "0.4", "–", "–", "–", "")));
+                          ElementsAre("2", "not significant", "", "", "0.4", "–", "–", "–", "")));
   EXPECT_THAT(table_of(page, "not-found"),
               ElementsAre(ElementsAre("coupling, joint 5", "3.8e-05", "rad", "7.8 arcsec")));
   EXPECT_THAT(table_of(page, "errors"), SizeIs(6)) << "the stage with the effects found stands beside the others";

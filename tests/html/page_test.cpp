@@ -145,15 +145,6 @@ TEST(ReportPage, ShowsTheParametersOfTheJsonRounded) {
   }
 }
 
-TEST(ReportPage, SaysThatANumberIsNotDetermined) {
-  Report report = made_up_report();
-  report.parameters = {
-      {"joint 4 d_mm", 600.0, 600.0, 5.0}, {"joint 4 a_mm", 0.0, 0.3, 0.1}, {"base_x_mm", 0.0, 9.0, 7.0}};
-  const std::string page = page_of(report);
-  EXPECT_THAT(all_between(page, "not determined", "</td>"), SizeIs(1));
-  EXPECT_THAT(words_of(page), Not(HasSubstr("5.0000")));
-}
-
 TEST(ReportPage, ShowsEveryFormulaNoteNameAndFact) {
   const Report report = made_up_report();
   const std::string words = words_of(page_of(report));

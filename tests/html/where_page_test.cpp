@@ -47,6 +47,25 @@ TEST(WherePage, HasRowsForReadersWithoutScriptsTheLargestErrorFirst) {
   for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_GE(std::stod(rows[i - 1][3]), std::stod(rows[i][3]));
 }
 
+TEST(WherePage, CountsPosesAndNotTheTargetsThatMeasuredThem) {
+  Report report = made_up_report();
+  report.poses.calibration = 120;
+  report.poses.validation = 60;
+  report.poses.accept = 60;
+  report.pose_errors.clear();
+  for (int pose = 0; pose < 80; ++pose) {
+    const std::string set = pose < 40 ? "calibration" : pose < 60 ? "validation" : "accept";
+    for (const char* const target : {"A", "B", "C"})
+      report.pose_errors.push_back({"P" + std::to_string(pose), target, set, 0.3, 0.1, {}});
+  }
+  const std::string words = words_of(report_html(report, {}));
+  for (const char* const count :
+       {"40 calibration poses of 3 targets", "20 accept poses of 3 targets", "largest errors of 80 poses of 3 targets"})
+    EXPECT_THAT(words, HasSubstr(count));
+  for (const char* const rows : {"240 poses", "120 calibration", "60 accept", "(120)"})
+    EXPECT_THAT(words, Not(HasSubstr(rows)));
+}
+
 TEST(WherePage, TakesNoNameForMarkup) {
   Report report = with_measured_poses(made_up_report(), 3);
   const std::string evil = "</script><script>alert('x')</script>\"]}\\ \x01 <!--";

@@ -1,6 +1,7 @@
 // The page fits the terminal it is made for, and every figure that it should show is on it.
 #include "terminal/monitor_page.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -121,6 +122,73 @@ TEST(MonitorPage, ShowsTheCausesThatWereFoundTheCostliestFirst) {
   EXPECT_NE(cut[1].find("joint 2"), std::string::npos);
   for (std::size_t columns = 40; columns <= 240; columns += 7)
     for (const std::string& line : monitor_page(watched, page_of(columns))) EXPECT_LE(display_width(line), columns);
+}
+
+std::string in_one_line(const Lines& lines) {
+  std::string text;
+  for (const std::string& line : lines) {
+    const std::size_t begin = line.find_first_not_of(' ');
+    if (begin != std::string::npos) text += (text.empty() ? "" : " ") + line.substr(begin);
+  }
+  return text;
+}
+
+TEST(MonitorPage, CutsNoSentenceWhereItsLinesAreNotLimited) {
+  Watched watched = watched_after(made_up_messages(made_up_data()));
+  for (const Message& found : made_up_findings()) watched.take(found, 1.0);
+  LoopNews longer = made_up_round(3, LoopNews::Verdict::none);
+  longer.label = "elasticity of the third joint in every direction that a wrench of the tool's weight has";
+  longer.text = "Joint 2 stops 0.225 mrad (46 arcsec) short on either side of where it was sent: backlash of its gear.";
+  watched.take(longer, 1.0);
+  for (std::size_t columns = 40; columns <= 240; columns += 7) {
+    const Lines lines = monitor_page(watched, page_of(columns));
+    for (const std::string& line : lines) EXPECT_LE(display_width(line), columns) << line;
+    const std::string page = in_one_line(lines);
+    for (const std::string& text : {longer.label, longer.text, std::string("not significant")})
+      EXPECT_NE(page.find(text), std::string::npos) << columns << "\n" << page;
+    EXPECT_EQ(page.find("none"), std::string::npos) << page;
+  }
+}
+
+TEST(MonitorPage, SaysWhatItsColumnsMeanWhereThatIsAskedFor) {
+  const Watched watched = watched_after(made_up_messages(made_up_data(6, 8)));
+  PageOptions options = page_of(80, 24);
+  options.keys = true;
+  const std::string without = joined(monitor_page(watched, options));
+  EXPECT_EQ(without.find("gen: "), std::string::npos);
+  EXPECT_TRUE(without.ends_with("q: leave, the run goes on   ?: what the columns mean\n")) << without;
+  options.legend = true;
+  for (const std::size_t columns : {40u, 80u, 140u}) {
+    options.columns = columns;
+    const Lines lines = monitor_page(watched, options);
+    EXPECT_LE(lines.size(), 24u);
+    for (const std::string& line : lines) EXPECT_LE(display_width(line), columns) << line;
+    const std::string page = in_one_line(lines);
+    for (const char* const column : {"gen: ", "best, median: ", "diff: ", "eval/s: ", "sent, took: ", "wait: ", "by: "})
+      EXPECT_NE(page.find(column), std::string::npos) << column << "\n" << page;
+  }
+}
+
+TEST(MonitorPage, ShowsEveryFurtherEvolutionAfterTheFullBarsOfThoseDone) {
+  const CalibrationData data = made_up_data();
+  Watched watched = watched_after(made_up_messages(data));
+  EXPECT_EQ(progress_bar(watched, 80, false).find(" done"), std::string::npos);
+  for (const RunId further : {data.run + 1, data.run + 2}) {
+    LoopNews stage = made_up_stage(LoopNews::Stage::evolving, "closing the loop: evolution 2");
+    stage.run = further;
+    CalibrationData next = data;
+    next.run = further;
+    watched.take(stage, 3.0);
+    watched.take(next, 3.0);
+    const std::size_t done = further - data.run;
+    const std::string bar = progress_bar(watched, 80, false);
+    EXPECT_EQ(display_width(bar), 80u);
+    EXPECT_NE(bar.find(fmt::format("  0% ({} evolution{} done)", done, done == 1 ? "" : "s")), std::string::npos)
+        << bar;
+    std::size_t full = 0;
+    for (std::size_t at = bar.find("━ "); at != std::string::npos; at = bar.find("━ ", at + 1)) ++full;
+    EXPECT_EQ(full, done) << bar;
+  }
 }
 
 TEST(MonitorPage, ColoursChangeNoLetter) {
