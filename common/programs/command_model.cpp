@@ -109,8 +109,8 @@ bool is_bound_to_base(const Chain& arm, int joint, LinkParameter which) {
 }
 
 /// The numbers of a model whose tool is `tool`, or none of whose tools' numbers count.
-Posterior posterior_of(const CommandModel& model, const CorrectedRobot& identified, const Posterior& posterior,
-                       const Eigen::Isometry3d* tool, bool registration) {
+Posterior counted_numbers(const CommandModel& model, const CorrectedRobot& identified, const Posterior& posterior,
+                          const Eigen::Isometry3d* tool, bool registration) {
   const bool turned = tool != nullptr && !tool->linear().isIdentity(0.0);
   Posterior kept = posterior.without([&](const ParameterId& id) {
     using Kind = ParameterId::Kind;
@@ -177,10 +177,11 @@ CommandModel with_posterior(CommandModel model, const CorrectedRobot& identified
   model.measured = std::move(measured);
   if (!posterior) return model;
   const Eigen::Isometry3d own = model.robot.tool("");
-  model.posterior = posterior_of(model, identified, *posterior, model.tool_identified ? &own : nullptr, registration);
+  model.posterior =
+      counted_numbers(model, identified, *posterior, model.tool_identified ? &own : nullptr, registration);
   if (model.measured_tool)
     model.measured_tool->posterior =
-        posterior_of(model, identified, *posterior, &model.measured_tool->pose, registration);
+        counted_numbers(model, identified, *posterior, &model.measured_tool->pose, registration);
   return model;
 }
 

@@ -158,7 +158,7 @@ class Corrector {
   CorrectedTarget with_known_frames(const Target& target, const TargetVisit& visit, const CommandModel& model) {
     const Configurations& found = visit.found;
     if (found.joints.empty()) return {};
-    if (target.is_pose() && contradictions(target.hint, found.joints.front()) > 0)
+    if (target.is_pose() && found.from != JointsFrom::line && contradictions(target.hint, found.joints.front()) > 0)
       return left(
           "no joints were found that reach the pose in the configuration that is stated; this line was not corrected");
     if (!found.contradicted_by.empty())

@@ -8,6 +8,7 @@
 
 #include "compiled_code.hpp"
 #include "kinematics/forward.hpp"
+#include "kinematics/inverse.hpp"
 #include "prediction/corrected_arm.hpp"
 #include "prediction/random_effects.hpp"
 #include "stop_at.hpp"
@@ -111,6 +112,19 @@ TEST(Code, InCCompilesWithoutWarningsAndAgreesWithTheModel) {
   expect_agreement(judged, output_of(program, code));
 }
 
+/// Whether the model's own inverse gets there, moving joints by at most 2.5 times what is missing, 0.3 m counting as a
+/// radian: within what the code allows.
+bool is_within_reach(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& stop) {
+  const PoseFunction model = [&](const JointVector& joints) {
+    return robot.predict_with_jacobian(stop.with_joints(joints), "");
+  };
+  const InverseSolution solution = inverse(model, goal, stop.joints);
+  PoseError missing = pose_error(robot.predict(stop, ""), goal);
+  missing.head<3>() /= 0.3;
+  return solution.status == InverseStatus::converged &&
+         (solution.q - stop.joints).cwiseAbs().maxCoeff() <= 2.5 * missing.norm();
+}
+
 TEST(Code, InCInvertsTheModel) {
   if (!there_is("cc")) GTEST_SKIP() << "there is no C compiler called cc";
   RandomStream stream{642};
@@ -148,20 +162,24 @@ TEST(Code, InCInvertsTheModel) {
                   failed);
     ASSERT_EQ(failed, 0) << said;
     std::istringstream printed(output_of(program, failed));
-    int reached = 0;
+    int regular = 0;
     for (const Stop& stop : judged.stops) {
+      const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, stop.joints) * robot.tool("");
+      const bool is_regular = is_within_reach(robot, goal, stop);
+      regular += is_regular ? 1 : 0;
       double left = 0.0;
       ASSERT_TRUE(printed >> left);
       JointVector command(joints);
       for (double& value : command) ASSERT_TRUE(printed >> value);
-      if (left > 1e-6) continue;
-      ++reached;
-      const Eigen::Isometry3d goal = robot.sensor_from_base * forward(nominal, stop.joints) * robot.tool("");
+      if (left > 1e-6) {
+        EXPECT_FALSE(is_regular) << joints << " joints, " << stop.joints.transpose();
+        continue;
+      }
       const Eigen::Isometry3d there = robot.predict(stop.with_joints(command), "");
       EXPECT_LT((there.translation() - goal.translation()).norm(), 1.1e-6);
       EXPECT_LT((there.linear() - goal.linear()).norm(), 1e-5);
     }
-    EXPECT_GE(reached, kStops * 8 / 10) << joints << " joints: others are near singular";
+    EXPECT_GE(regular, kStops / 2) << joints << " joints: others are near singular";
   }
 }
 

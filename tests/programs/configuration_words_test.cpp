@@ -61,7 +61,7 @@ TEST(SamePosture, DoesNotDependOnCouplingsAndIsNotToldOfOtherArms) {
   EXPECT_EQ(same_posture(wrist_arm(), singular, singular), std::nullopt);
 }
 
-struct Listing {
+struct TaughtListing {
   RandomStream stream{7532};
   CommandModel model = erring_model(stream, elbow_arm(stream));
   std::string moves{}, positions{};
@@ -97,7 +97,7 @@ TEST(Words, MeanTheSidesOfThePoseBeforeThatHadThem) {
   RandomStream stream{7533};
   int far = 0;
   for (int i = 0; i < 40; ++i) {
-    Listing listing;
+    TaughtListing listing;
     const JointVector first = told_joints(stream, listing.model.nominal.chain);
     JointVector second = told_joints(stream, listing.model.nominal.chain);
     while (sides(second) != sides(first)) second = told_joints(stream, listing.model.nominal.chain);
@@ -116,7 +116,7 @@ TEST(Words, MeanTheSidesOfThePoseBeforeThatHadThem) {
 }
 
 TEST(Words, ThatAreNewLeaveTheLineAndSaySo) {
-  Listing listing;
+  TaughtListing listing;
   JointVector flipped = standing();
   flipped[3] += 3.14159265358979;
   flipped[4] *= -1.0;
@@ -135,12 +135,12 @@ TEST(Words, ThatAreNewLeaveTheLineAndSaySo) {
 }
 
 TEST(Words, AreToldByJointsOrAUserVeryNearAndByALine) {
-  Listing near;
+  TaughtListing near;
   near.pose(standing(), "N U T, 0, 0, 0");
   EXPECT_EQ(near.corrected().targets[0].outcome, CorrectionOutcome::uncorrected);
   EXPECT_EQ(near.corrected(standing() + JointVector::Constant(6, 0.05)).targets[0].from, JointsFrom::given);
   EXPECT_EQ(near.corrected(standing() + JointVector::Constant(6, 0.8)).targets[0].from, JointsFrom::undetermined);
-  Listing line;
+  TaughtListing line;
   line.joints(standing() + JointVector::Constant(6, 0.1));
   line.pose(standing(), "N U T, 0, 0, 0", 'L');
   EXPECT_EQ(line.corrected().targets[1].from, JointsFrom::line);
@@ -148,7 +148,7 @@ TEST(Words, AreToldByJointsOrAUserVeryNearAndByALine) {
 
 TEST(Words, OfOneConfigurationThatContradictEachOtherLeaveTheLine) {
   for (const auto& [words, left] : {std::pair{"F U T, 0, 0, 0", true}, {"N U T, 0, 0, 1", false}}) {
-    Listing listing;
+    TaughtListing listing;
     listing.joints(standing());
     listing.pose(standing() + JointVector::Constant(6, 0.05), "N U T, 0, 0, 0");
     listing.joints(standing());

@@ -21,7 +21,7 @@ struct ExportedCommand {
   JointVector command;
 };
 
-std::string listed(const JointVector& joints) {
+std::string joints_listed(const JointVector& joints) {
   std::ostringstream text;
   text << std::setprecision(17);
   for (Eigen::Index i = 0; i < joints.size(); ++i) text << (i == 0 ? "" : ",") << joints[i];
@@ -48,7 +48,7 @@ std::vector<ExportedCommand> exported_commands(const CorrectedRobot& robot, cons
        << inverse_in_c(described_listing(algebra, robot, robot.tool(""))) << "#include <stdio.h>\n"
        << kHalfTurned << "int main(void) {\n"
        << "  static const double stops[][N] = {";
-  for (const JointVector& stop : stops) code << '{' << listed(stop) << "},\n";
+  for (const JointVector& stop : stops) code << '{' << joints_listed(stop) << "},\n";
   code << "};\n  double command[N];\n  for (int i = 0; i < " << stops.size() << "; ++i) {\n    printf(\"%.17g\\n\", "
        << call << ");\n"
        << "    for (int k = 0; k < N; ++k) printf(\"%.17g\\n\", command[k]);\n  }\n  return 0;\n}\n";

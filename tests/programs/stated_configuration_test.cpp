@@ -6,6 +6,7 @@
 #include "kinematics/angles.hpp"
 #include "kinematics/units.hpp"
 #include "languages/written_program.hpp"
+#include "programs/target_correction.hpp"
 
 namespace demecal {
 namespace {
@@ -114,6 +115,41 @@ TEST(StatedConfiguration, OfNothingLeavesNoLine) {
     crossed += joints[5] * corrected.targets[0].command[5] < 0.0 ? 1 : 0;
   }
   EXPECT_GT(crossed, 0);
+}
+
+/// Of a KRL program that moves to joints and then, as `motion` says, to a pose with these words for its configuration.
+JointVector krl_command_after_joints(const StatingArm& arm, const std::string& motion, const std::string& words) {
+  JointVector from(6), to(6);
+  from << 0.4, -0.7, 0.5, 0.3, 0.9, 0.2;
+  to << 0.45, -0.65, 0.45, 0.35, 0.85, 0.25;
+  const auto joined = [](const std::vector<std::string>& names, const std::vector<double>& values) {
+    std::string text;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      text += (i == 0 ? "" : ",") + names[i] + " " + fixed_text(values[i], 9);
+    return text;
+  };
+  std::vector<double> axes_deg, pose;
+  for (const double angle : from) axes_deg.push_back(degrees(angle));
+  const Eigen::Isometry3d tool = arm.model.nominal_tool(to);
+  for (const double coordinate : tool.translation()) pose.push_back(1e3 * coordinate);
+  const std::vector<double> abc_deg = controller_angles(tool.linear()).front().values;
+  pose.insert(pose.end(), abc_deg.begin(), abc_deg.end());
+  const std::string text = "$BASE=$NULLFRAME\n$TOOL={X 150,Y 2,Z 56,A 0,B 0,C 0}\nPTP {" +
+                           joined({"A1", "A2", "A3", "A4", "A5", "A6"}, axes_deg) + "}\n" + motion + " {" +
+                           joined({"X", "Y", "Z", "A", "B", "C"}, pose) + words + "}\n";
+  const CorrectedProgram corrected = correct_program(
+      text, read_program(WrittenIn::krl, text, "p", arm.model.nominal.chain), arm.model, {.temperature_celsius = 20.0});
+  EXPECT_EQ(corrected.targets.size(), 2u);
+  return corrected.targets.back().nominal;
+}
+
+TEST(StatedConfiguration, OfKrlCountsForPtpAndNotForLin) {
+  const StatingArm arm;
+  const JointVector plain = krl_command_after_joints(arm, "LIN", "");
+  EXPECT_EQ(krl_command_after_joints(arm, "LIN", ",S 2,T 18"), plain);
+  EXPECT_EQ(krl_command_after_joints(arm, "LIN", ",S 2,T 58"), plain);
+  const JointVector other = krl_command_after_joints(arm, "PTP", ",S 2,T 18");
+  EXPECT_TRUE(other.size() == 0 || (other - plain).cwiseAbs().maxCoeff() > 0.1);
 }
 
 }  // namespace
