@@ -17,6 +17,7 @@
 #include "parameters/declared_model.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline calibration {
 
@@ -72,6 +73,7 @@ struct UnseenValidation {
   double before_mm = 0.0;         ///< rms, of what the closed loop started from
   double after_mm = 0.0;          ///< rms, of what it ended with
   PredictionInterval interval{};  ///< of what it ended with
+  NoiseEstimate noise{};          ///< in the residuals of the fit that had not seen them
 };
 
 struct Calibration {

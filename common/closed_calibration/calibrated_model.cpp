@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <optional>
+#include <utility>
 
 #include "decompositions/decompositions.hpp"
 #include "diagnosis/loop.hpp"
@@ -36,31 +38,37 @@ RowScales scatter_of(const DataSet& data, const CorrectedRobot& robot, const std
 }
 
 /// The variance of rows of unit scale, by what they leave; larger where few are left to estimate it from (Student).
+/// What is believed of errors that poses share counts as so many rows more.
 double row_variance(const Projection& projection) {
   constexpr double kFewest = 3.0;
-  const double freedom = std::max(projection.freedom(), kFewest);
+  const Eigen::Index shared = projection.shared();
+  const double believed = static_cast<double>(shared) - projection.prior_basis().bottomRows(shared).squaredNorm();
+  const double freedom = std::max(projection.freedom() + believed, kFewest);
   return std::max(1.0, projection.squares() / freedom) * freedom / std::max(1.0, freedom - 2.0);
 }
 
-/// Of the scatter of positions, per axis: what joints have in it, and what poses share. 0 where
-/// nothing tells, and of contacts, whose places move with the arm.
-double arm_scatter_m(const DiagnosisProblem& problem, const Linearization& linearization, const DiagnosedModel& model) {
-  const DataSet& data = problem.data;
-  const auto noise = has_contacts(data) ? std::nullopt : noise_shown(problem, linearization, model);
-  if (!noise || !(model.scales[kPosition] > 0.0)) return 0.0;
-  const ResidualField& field = linearization.fitted;
+/// What the residuals show. Of contacts nothing, whose places move with the arm.
+NoiseEstimate noise_of(const DiagnosisProblem& problem, const Linearization& linearization,
+                       const DiagnosedModel& model) {
+  if (has_contacts(problem.data)) return {};
+  return noise_shown(problem, linearization, model).value_or(NoiseEstimate{});
+}
+
+/// What joints have in the scatter of positions, per axis, where that is more than half of it: less may be the noise of
+/// an instrument, which grows with the distance as theirs does.
+double arm_scatter_m(const DataSet& data, const ResidualField& field, const NoiseModel& noise, double independent_m,
+                     double position_scale_m) {
   double squares = 0.0, poses = 0.0;
   for (std::size_t i = 0; i < field.poses.size(); ++i) {
     if (!data.poses[field.poses[i]].position_m || field.root_weight[i] <= 0.0) continue;
     poses += 1.0;
     for (std::size_t joint = 0; joint < field.scattering.size(); ++joint) {
       const Eigen::Vector3d moved = field.motions.block<3, 1>(field.first_row[i], field.scattering[joint]);
-      squares += noise->model.joint_variance_rad2(joint) * moved.squaredNorm() / std::pow(field.root_weight[i], 2);
+      squares += noise.joint_variance_rad2(joint) * moved.squaredNorm() / std::pow(field.root_weight[i], 2);
     }
   }
-  if (poses == 0.0) return 0.0;
-  const double shared = std::pow(noise->model.repeats, 2) + std::pow(noise->model.order, 2);
-  return model.scales[kPosition] * std::sqrt(squares / (3.0 * poses) + shared * std::pow(noise->scale, 2));
+  const double scatter_m = poses > 0.0 ? position_scale_m * std::sqrt(squares / (3.0 * poses)) : 0.0;
+  return scatter_m > independent_m ? scatter_m : 0.0;
 }
 
 /// Adds what base and tool could share out between them unseen: nothing is believed of either, so that least squares
@@ -105,20 +113,23 @@ Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& covariance) {
 }  // namespace
 
 FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& robot,
-                                 const std::vector<std::size_t>& poses) {
+                                 const std::vector<std::size_t>& poses, const std::optional<NoiseEstimate>& known) {
   constexpr double kLeastTerm = 1e-7;  ///< rad
   DiagnosedModel model;
   model.robot = with_own_contacts(robot, data, poses);
   model.smooth = smooth_corrections(data, poses, robot, declared.joint_corrections, declared.joint_offset);
   model.scales = scatter_of(data, model.robot, observe(data, poses, robot));
   const DiagnosisProblem problem{data, declared, poses, {}};
-  const Linearization linearization = linearize(problem, model);
-  const double variance = row_variance(linearization.projection);
-  Eigen::MatrixXd covariance = variance * linearization.covariance;
-  widen(linearization, covariance);
+  Linearization linearization = linearize(problem, model);
   FittedPosterior fitted{{{}, {}, {}}, model.scales};
-  for (double& scale : fitted.scatter) scale *= std::sqrt(variance);
-  fitted.arm_scatter_m = arm_scatter_m(problem, linearization, model);
+  for (double& scale : fitted.scatter) scale *= std::sqrt(row_variance(linearization.projection));
+  fitted.noise = known ? *known : noise_of(problem, linearization, model);
+  const double scale_m = model.scales[kPosition];
+  model = with_noise(std::move(model), linearization, fitted.noise);
+  fitted.arm_scatter_m = arm_scatter_m(data, linearization.fitted, model.noise, model.scales[kPosition], scale_m);
+  if (model.noise.repeats > 0.0 || model.noise.order > 0.0) linearization = linearize(problem, model);
+  Eigen::MatrixXd covariance = row_variance(linearization.projection) * linearization.covariance;
+  widen(linearization, covariance);
   Posterior& posterior = fitted.posterior;
   std::vector<Eigen::Index> kept;  // all but contacts' and stations' places: what they take is in the rest's covariance
   for (std::size_t i = 0; i < linearization.ids.size(); ++i) {
@@ -140,7 +151,9 @@ FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& decla
 }
 
 Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {
-  return fitted_posterior(data, declared, calibration.robot, fitted_poses(data, calibration)).posterior;
+  // The interval is in deviations of a posterior with that noise.
+  const auto noise = calibration.unseen ? std::optional(calibration.unseen->noise) : std::nullopt;
+  return fitted_posterior(data, declared, calibration.robot, fitted_poses(data, calibration), noise).posterior;
 }
 
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration) {

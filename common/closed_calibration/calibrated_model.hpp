@@ -82,15 +82,18 @@ struct CalibratedModel {
 Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration);
 
 /// The posterior of a robot that was fitted to `poses`, and how far their rows scatter about it (standard deviations
-/// for the degrees of freedom that the model leaves; m, rad, m).
+/// for the degrees of freedom that the model leaves; m, rad, m). Errors that the residuals show to be shared, by
+/// repeats of a pose or neighbours in time, count as shared; `known` is that noise where an earlier fit showed it.
 struct FittedPosterior {
   Posterior posterior;
   RowScales scatter{};
-  /// Of the positions' scatter, what joints scatter by and poses share: the arm's own, no instrument's.
+  /// Of the positions' scatter what joints have in it: the arm's own, no instrument's. 0 where it is less than half.
   double arm_scatter_m = 0.0;
+  NoiseEstimate noise{};
 };
 FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& robot,
-                                 const std::vector<std::size_t>& poses);
+                                 const std::vector<std::size_t>& poses,
+                                 const std::optional<NoiseEstimate>& known = std::nullopt);
 
 /// The lowest and highest value (rad or m) of every joint over the same poses.
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration);

@@ -152,9 +152,11 @@ std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declar
   const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
   UnseenValidation unseen{error_figures(ends.before.robot, data, validation).rms_mm,
                           error_figures(ends.after.robot, data, validation).rms_mm,
+                          {},
                           {}};
-  unseen.interval =
-      prediction_interval(data, fitted_posterior(data, declared, ends.after.robot, calibration), ends.after.robot);
+  const FittedPosterior fitted = fitted_posterior(data, declared, ends.after.robot, calibration);
+  unseen.interval = prediction_interval(data, fitted, ends.after.robot);
+  unseen.noise = fitted.noise;
   for (DiagnosedModel* model : {&ends.before, &ends.after}) {
     *model = final_fit(data, declared, std::move(*model));
     drop_negligible_terms(*model);

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "effects/arm_state.hpp"
@@ -171,15 +172,19 @@ std::optional<NoiseEstimate> noise_shown(const DiagnosisProblem& problem, const 
   return estimate_noise(rows);
 }
 
+DiagnosedModel with_noise(DiagnosedModel model, const Linearization& linearization, const NoiseEstimate& noise) {
+  if (!is_noise(noise, model.scales)) return model;
+  model.noise = noise.model;
+  model.noise.fast = unfollowed_variance(model.noise, linearization.fitted.poses);
+  model.noise_estimated = true;
+  for (double& scale : model.scales) scale *= noise.scale;
+  return model;
+}
+
 DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model) {
   const Linearization linearization = linearize(problem, model);
   const std::optional<NoiseEstimate> noise = noise_shown(problem, linearization, model);
-  if (!noise || !is_noise(*noise, model.scales)) return model;
-  model.noise = noise->model;
-  model.noise.fast = unfollowed_variance(model.noise, linearization.fitted.poses);
-  model.noise_estimated = true;
-  for (double& scale : model.scales) scale *= noise->scale;
-  return model;
+  return noise ? with_noise(std::move(model), linearization, *noise) : model;
 }
 
 }  // namespace demecal::inline residuals

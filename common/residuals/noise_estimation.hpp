@@ -26,11 +26,6 @@ struct NoiseRows {
   RowMatrix even_drift{};               ///< rows x numbers that count as fitted; as a rival, it may be likelier
 };
 
-struct NoiseEstimate {
-  NoiseModel model;
-  double scale = 1.0;  ///< of independent noise: what the scales of all rows are to be multiplied by
-};
-
 /// The components of variance of which the residuals are likeliest, the model's numbers integrated out (restricted
 /// maximum likelihood; Patterson and Thompson, 1971). A component is zero where it makes the residuals hardly likelier.
 /// Joints scatter by about the same, or one by far more than the others.
@@ -93,11 +88,14 @@ class RestrictedLikelihood {
 std::optional<NoiseEstimate> noise_shown(const DiagnosisProblem& problem, const Linearization& linearization,
                                          const DiagnosedModel& model);
 
+/// The model with that noise and its scales of independent noise. The model as it is where its residuals scatter by
+/// more than noise may: 1 mrad of a joint, 5 mm that poses share.
+DiagnosedModel with_noise(DiagnosedModel model, const Linearization& linearization, const NoiseEstimate& noise);
+
 /// The model with the noise, and the scales of independent noise, that its residuals over the fitted poses show. Poses
 /// far out have no part in it. Smooth terms count whether they were chosen or not, slow ones first, as many as leave
 /// enough distinct poses: what a choice among them explains by chance is not taken for less noise. So does even drift
-/// where poses have times: a cause that can be named is no noise that neighbours share. The model as it is
-/// where its residuals scatter by more than noise may: 1 mrad of a joint, 5 mm that poses share.
+/// where poses have times: a cause that can be named is no noise that neighbours share.
 DiagnosedModel with_noise_estimated(const DiagnosisProblem& problem, DiagnosedModel model);
 
 }  // namespace demecal::inline residuals

@@ -37,6 +37,11 @@ struct NoiseModel {
   }
 };
 
+struct NoiseEstimate {
+  NoiseModel model{};
+  double scale = 1.0;  ///< of independent noise: what the scales of all rows are to be multiplied by
+};
+
 /// Rows are in units of what their kind scatters; those of one pose are made independent of unit variance where joints
 /// scatter too, and those of poses far out are scaled down by the root of their weight (Huber's by
 /// the pose's norm, none at all beyond rejection_norm). A model change `c` changes the residual to residual - columns *

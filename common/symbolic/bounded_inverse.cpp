@@ -43,25 +43,26 @@ static void diagonalize(double matrix[6][6], double vectors[6][6]) {
 }
 
 /* Newton's steps from q in the directions that the arm has not lost: those with singular values above LOST, positions
-   counting over `length`. */
+   counting over `length`. They are taken at q and two steps on, and hardly change from there. */
 static void keep_to(const struct circumstances* at, const double goal[16], double length, double q[N]) {
   double jacobian[6][N], square[6][6], vectors[6][6], pose[16], error[6], along[6];
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < 16; ++round) {
     double moved = 0.0;
     forward_at(at, q, pose);
     pose_error(goal, pose, error);
-    differentiate(forward_at, at, q, pose, 0, jacobian);
-    for (int i = 0; i < 6; ++i) {
-      const double scale = i < 3 ? length : LEVER;
-      error[i] /= scale;
-      for (int k = 0; k < N; ++k) jacobian[i][k] /= scale;
-      for (int k = 0; k <= i; ++k) {
-        square[i][k] = 0.0;
-        for (int j = 0; j < N; ++j) square[i][k] += jacobian[i][j]*jacobian[k][j];
-        square[k][i] = square[i][k];
+    for (int i = 0; i < 6; ++i) error[i] /= i < 3 ? length : LEVER;
+    if (round == 0 || round == 2) {
+      differentiate(forward_at, at, q, pose, 0, jacobian);
+      for (int i = 0; i < 6; ++i) {
+        for (int k = 0; k < N; ++k) jacobian[i][k] /= i < 3 ? length : LEVER;
+        for (int k = 0; k <= i; ++k) {
+          square[i][k] = 0.0;
+          for (int j = 0; j < N; ++j) square[i][k] += jacobian[i][j]*jacobian[k][j];
+          square[k][i] = square[i][k];
+        }
       }
+      diagonalize(square, vectors);
     }
-    diagonalize(square, vectors);
     for (int i = 0; i < 6; ++i) along[i] = 0.0;
     for (int k = 0; k < 6; ++k) {
       double share = 0.0;

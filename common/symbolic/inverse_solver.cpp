@@ -148,7 +148,7 @@ static double reach(const struct circumstances* at, const double goal[16], doubl
       differentiate(nominal_forward, at, q, nominal, 0, jacobian);
       factorize(jacobian, 0.0, root);
     } else if (round > 3 && round % 2 == 0) {
-      differentiate(forward_at, at, q, pose, round > 4, jacobian);
+      differentiate(forward_at, at, q, pose, 0, jacobian);
       factorize(jacobian, 0.25*left*left/(most*most), root);
     }
     for (int r = 0; r < N; ++r) {

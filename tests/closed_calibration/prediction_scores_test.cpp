@@ -4,9 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -145,6 +147,54 @@ TEST(PredictionInterval, CountsWhatTheArmScattersByItselfAsItsErrorAndNotAsNoise
     EXPECT_GT(with.model_error_m, kJoint_rad) << seed;  // of levers of a metre
     EXPECT_LT(with.noise_m, 5.0 * kInstrument_m) << seed;
   }
+}
+
+TEST(PredictionInterval, TakesNoInstrumentWhoseNoiseGrowsWithTheDistanceForAnArmThatScatters) {
+  const Eigen::Vector3d tracker_m(3.0, 1.0, 0.5);
+  for (std::uint64_t seed = 960; seed < 965; ++seed) {
+    DataSet data = judged_arm(90, 39, {.sigma_m = 0.0}, seed);
+    RandomStream random{seed, 4714};
+    for (MeasuredPose& pose : data.poses)
+      for (double& element : *pose.position_m)
+        element += (1.5e-5 + 2e-5 * (*pose.position_m - tracker_m).norm()) * random.normal();
+    const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+    const CorrectedRobot robot = fit_declared(data, poses, kIntervalDeclared, nominal_robot(data)).robot;
+    EXPECT_EQ(fitted_posterior(data, kIntervalDeclared, robot, poses).arm_scatter_m, 0.0) << seed;
+  }
+}
+
+/// Root mean square over many arms of how wrong the model is where nothing was measured, over what its posterior lets
+/// expect. Measured one after another, errors of 0.05 mm being alike from pose to pose.
+double drifting_error_over_expected(const std::optional<NoiseEstimate>& known) {
+  constexpr double kCorrelation = 0.9, kDrift_m = 5e-5, kWhite_m = 1e-5;
+  double squares_m2 = 0.0, expected_m2 = 0.0;
+  for (std::uint64_t seed = 970; seed < 982; ++seed) {
+    DataSet data = measure(true_puma({"", "", "", "", "", ""}), 150, 0.0, seed, false);
+    RandomStream random{seed, 4715};
+    Eigen::Vector3d drift_m = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < data.poses.size(); ++i) {
+      MeasuredPose& pose = data.poses[i];
+      pose.set = i < 100 ? PoseSet::calibration : PoseSet::accept;
+      for (double& axis : drift_m)
+        axis = kCorrelation * axis + std::sqrt(1.0 - kCorrelation * kCorrelation) * kDrift_m * random.normal();
+      if (pose.set == PoseSet::accept) continue;
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        (*pose.position_m)[axis] += drift_m[axis] + kWhite_m * random.normal();
+    }
+    const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+    const CorrectedRobot robot = fit_declared(data, poses, kIntervalDeclared, nominal_robot(data)).robot;
+    const Posterior posterior = fitted_posterior(data, kIntervalDeclared, robot, poses, known).posterior;
+    for (const std::size_t pose : poses_of(data, PoseSet::accept)) {
+      squares_m2 += std::pow(tool_error_m(robot, data, data.poses[pose]), 2);
+      expected_m2 += posterior_square_m2(posterior, robot, data, data.poses[pose]);
+    }
+  }
+  return std::sqrt(squares_m2 / expected_m2);
+}
+
+TEST(FittedPosterior, CountsErrorsThatNeighboursInTimeShare) {
+  EXPECT_GT(drifting_error_over_expected(NoiseEstimate{}), 1.5);  // as if they were independent
+  EXPECT_LT(drifting_error_over_expected(std::nullopt), 1.3);
 }
 
 TEST(PredictionInterval, SaysWhoseErrorsItComesFrom) {

@@ -84,10 +84,11 @@ void judge_fresh(const NoiseCase& one, const Scenario& scenario, const Calibrate
   std::vector<Eigen::Vector3d> errors_m;
   std::vector<double> lengths_m;
   double radii_m = 0.0;
+  const JointVector repeats_to_rad = repeatability_rad(one, scenario.robot.chain.size());
   for (int draw = 1; draw <= kDrawsOfFresh; ++draw) {
     NoiseCase course = one;
     course.seed += 1'000'000 * static_cast<std::uint64_t>(draw);
-    const DataSet fresh = fresh_poses(course, scenario);
+    const DataSet fresh = fresh_poses(course, scenario, repeats_to_rad);
     for (const MeasuredPose& pose : fresh.poses) {
       if (!is_inside(model.measured, pose)) continue;
       const Stop stop(pose);

@@ -41,7 +41,8 @@ CorrectedRobot calibrated(const Robot& robot, RandomStream& random) {
   return arm;
 }
 
-/// Draws joints, inverts, and prints: poses, seconds, how many were not reached, the largest residual of the others.
+/// Draws joints and corrects them; then finds the joints at which the tool stands where the described arm's would.
+/// Prints of either: seconds, how many were not reached, the largest residual of the others.
 std::string driver(const Chain& chain, long poses) {
   std::string lower, upper;
   for (const Joint& joint : chain.joints) {
@@ -58,20 +59,27 @@ static double drawn(void) {{
 }}
 int main(void) {{
   static const double lower[] = {{{}}}, upper[] = {{{}}};
-  long missed = 0;
-  double largest = 0.0, seconds = 0.0;
+  const struct circumstances none = {{0}};
+  long missed[2] = {{0, 0}};
+  double largest[2] = {{0.0, 0.0}}, seconds[2] = {{0.0, 0.0}};
   for (long i = 0; i < {}; i += 1000) {{
-    static double nominal[1000][N], command[N];
-    for (int k = 0; k < 1000; ++k)
-      for (int j = 0; j < N; ++j) nominal[k][j] = lower[j] + (upper[j] - lower[j])*drawn();
-    const clock_t begin = clock();
+    static double nominal[1000][N], goal[1000][16], command[1000][N];
     for (int k = 0; k < 1000; ++k) {{
-      const double left = corrected(nominal[k], command);
-      if (left > 1e-6) ++missed; else if (left > largest) largest = left;
+      for (int j = 0; j < N; ++j) nominal[k][j] = lower[j] + (upper[j] - lower[j])*drawn();
+      nominal_forward(&none, nominal[k], goal[k]);
     }}
-    seconds += (double)(clock() - begin)/CLOCKS_PER_SEC;
+    for (int way = 0; way < 2; ++way) {{
+      for (int k = 0; k < 1000; ++k)
+        for (int j = 0; j < N; ++j) command[k][j] = nominal[k][j];
+      const clock_t begin = clock();
+      for (int k = 0; k < 1000; ++k) {{
+        const double left = way == 0 ? corrected(nominal[k], command[k]) : inverse(goal[k], command[k]);
+        if (left > 1e-6) ++missed[way]; else if (left > largest[way]) largest[way] = left;
+      }}
+      seconds[way] += (double)(clock() - begin)/CLOCKS_PER_SEC;
+    }}
   }}
-  printf("%.6f %ld %.3g\n", seconds, missed, largest);
+  for (int way = 0; way < 2; ++way) printf("%.6f %ld %.3g\n", seconds[way], missed[way], largest[way]);
   return 0;
 }}
 )code",
@@ -90,7 +98,8 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("demecal-inverse-" + std::to_string(::getpid()));
   std::filesystem::create_directories(folder);
-  if (!json) fmt::print("{:<24} {:>10} {:>14} {:>22}\n", "arm", "us", "not reached", "largest residual, um");
+  if (!json)
+    fmt::print("{:<24} {:<10} {:>8} {:>14} {:>22}\n", "arm", "function", "us", "not reached", "largest residual, um");
   for (const char* name : {"ur10", "kuka-kr6-r900-2", "staubli-tx2-60", "kuka-iiwa14"}) {
     const Robot robot = load_robot(std::string(DEMECAL_SOURCE_DIR) + "/configs/robots/" + name + ".yaml");
     RandomStream random{911};
@@ -101,20 +110,24 @@ int main(int argc, char** argv) {
     const std::string program = (folder / "inverse").string();
     std::ofstream(program + ".c") << code;
     if (std::system(fmt::format("cc -std=c99 -O2 -o {0} {0}.c -lm && {0} > {0}.txt", program).c_str()) != 0) return 21;
-    double seconds = 0.0, largest_m = 0.0;
-    long missed = 0;
-    std::ifstream(program + ".txt") >> seconds >> missed >> largest_m;
-    const double each_us = 1e6 * seconds / static_cast<double>(poses);
-    if (json) {
-      fmt::print("{}\n", nlohmann::ordered_json{{"workload", "inverse"},
-                                                {"robot", robot.name},
-                                                {"poses", poses},
-                                                {"us", each_us},
-                                                {"not_reached", missed},
-                                                {"largest_residual_um", 1e6 * largest_m}}
-                             .dump());
-    } else {
-      fmt::print("{:<24} {:>10.2f} {:>14} {:>22.4f}\n", robot.name, each_us, missed, 1e6 * largest_m);
+    std::ifstream figures(program + ".txt");
+    for (const char* way : {"corrected", "inverse"}) {
+      double seconds = 0.0, largest_m = 0.0;
+      long missed = 0;
+      figures >> seconds >> missed >> largest_m;
+      const double each_us = 1e6 * seconds / static_cast<double>(poses);
+      if (json) {
+        fmt::print("{}\n", nlohmann::ordered_json{{"workload", "inverse"},
+                                                  {"robot", robot.name},
+                                                  {"function", way},
+                                                  {"poses", poses},
+                                                  {"us", each_us},
+                                                  {"not_reached", missed},
+                                                  {"largest_residual_um", 1e6 * largest_m}}
+                               .dump());
+      } else {
+        fmt::print("{:<24} {:<10} {:>8.2f} {:>14} {:>22.4f}\n", robot.name, way, each_us, missed, 1e6 * largest_m);
+      }
     }
   }
   std::filesystem::remove_all(folder);

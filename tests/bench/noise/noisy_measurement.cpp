@@ -1,6 +1,7 @@
 #include "noisy_measurement.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "closed_loop/scene.hpp"
 #include "data/data_set.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 // What the random streams of a case are for; 1 to 21 are those of the simulation and of the closed loop's benchmark.
 constexpr std::uint64_t kWrongArm = 31, kJointCourse = 32, kCircumstances = 33, kNoiseDraw = 34, kDealt = 35,
-                        kFreshCourse = 36, kFreshCircumstances = 37;
+                        kFreshCourse = 36, kFreshCircumstances = 37, kFreshStops = 38;
 
 constexpr double kWhite_m = 5e-5;
 constexpr double kWhiteBesideJoints_m = 2e-5, kWhiteBesideOthers_m = 1e-5;
@@ -79,14 +80,22 @@ MeasuredPose row_of_visit(const NoiseCase& one, const Scenario& scenario, const 
   return pose;
 }
 
+JointVector drawn_repeatability_rad(Eigen::Index joints, RandomStream& random) {
+  JointVector deviation(joints);
+  for (double& joint : deviation) joint = radians(random.real(0.005, 0.01));
+  return deviation;
+}
+
+JointVector beside(JointVector joints, const JointVector& deviation, RandomStream& random) {
+  for (Eigen::Index i = 0; i < deviation.size(); ++i) joints[i] += deviation[i] * random.normal();
+  return joints;
+}
+
 /// Where the joints of each visit stand: as commanded, or by their repeatability beside it, drawn anew every time.
 std::vector<Visit> as_reached(const NoiseCase& one, std::vector<Visit> visits, RandomStream& random) {
   if (one.condition.noise != Noise::joints) return visits;
-  JointVector deviation(visits.front().commanded.size());
-  for (double& joint : deviation) joint = radians(random.real(0.005, 0.01));
-  for (Visit& visit : visits) {
-    for (Eigen::Index i = 0; i < deviation.size(); ++i) visit.commanded[i] += deviation[i] * random.normal();
-  }
+  const JointVector deviation = drawn_repeatability_rad(visits.front().commanded.size(), random);
+  for (Visit& visit : visits) visit.commanded = beside(std::move(visit.commanded), deviation, random);
   return visits;
 }
 
@@ -193,14 +202,23 @@ DataSet measured_noisily(const NoiseCase& one, const Scenario& scenario) {
   return data;
 }
 
-DataSet fresh_poses(const NoiseCase& one, const Scenario& scenario) {
-  RandomStream course{one.seed, kFreshCourse}, circumstances{one.seed, kFreshCircumstances};
+JointVector repeatability_rad(const NoiseCase& one, Eigen::Index joints) {
+  if (one.condition.noise != Noise::joints) return {};
+  RandomStream noise{one.seed, kNoiseDraw};
+  return drawn_repeatability_rad(joints, noise);
+}
+
+DataSet fresh_poses(const NoiseCase& one, const Scenario& scenario, const JointVector& stops_beside_rad) {
+  RandomStream course{one.seed, kFreshCourse}, circumstances{one.seed, kFreshCircumstances},
+      stops{one.seed, kFreshStops};
   const SimulatedRobot robot(scenario);
   DataSet data = without_poses(scenario);
   for (Visit& visit : visits_of(joint_course(one.condition.course, scenario.joint_ranges, kFreshPoses, course), 1,
                                 scenario, circumstances)) {
     visit.time_s = circumstances.real(0.0, scenario.seconds_per_pose * static_cast<double>(kPosesMeasured));
-    data.poses.push_back(row_of_visit(one, scenario, visit, robot.true_pose(visit).translation()));
+    Visit reached = visit;
+    reached.commanded = beside(visit.commanded, stops_beside_rad, stops);
+    data.poses.push_back(row_of_visit(one, scenario, visit, robot.true_pose(reached).translation()));
   }
   return data;
 }

@@ -17,8 +17,12 @@ Scenario noisy_scene(const NoiseCase& one, const std::vector<Robot>& arms);
 /// the condition's noise, dealt to the sets at random; nothing of the fault. Approach and payload recorded.
 DataSet measured_noisily(const NoiseCase& one, const Scenario& scenario);
 
-/// 200 poses without noise, drift or faults, from the same distribution of joints and circumstances.
-DataSet fresh_poses(const NoiseCase& one, const Scenario& scenario);
+/// By how much the joints of the case's arm stop beside where they are sent (standard deviations); empty: not at all.
+JointVector repeatability_rad(const NoiseCase& one, Eigen::Index joints);
+
+/// 200 poses without noise, drift or faults, from the same distribution of joints and circumstances. Joints stop by
+/// `stops_beside_rad` beside where they are sent (standard deviations); empty: there.
+DataSet fresh_poses(const NoiseCase& one, const Scenario& scenario, const JointVector& stops_beside_rad = {});
 
 /// Root mean square, mm, of the robot's errors on `fresh`; after the rigid motion of its predictions that makes them
 /// least, where the condition drifts, so that only the instrument's place is unknown.
