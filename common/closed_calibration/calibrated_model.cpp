@@ -178,9 +178,13 @@ std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Ca
 }
 
 PredictionInterval interval_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {
-  if (calibration.unseen) return calibration.unseen->interval;
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
-  return prediction_interval(data, fitted_posterior(data, declared, calibration.robot, poses), calibration.robot);
+  PredictionInterval interval =
+      calibration.unseen
+          ? calibration.unseen->interval
+          : prediction_interval(data, fitted_posterior(data, declared, calibration.robot, poses), calibration.robot);
+  interval.along_path = follow_each_other(data);
+  return interval;
 }
 
 }  // namespace demecal::inline closed_calibration

@@ -79,7 +79,13 @@ struct PredictionInterval {
   bool fitted = false;            ///< the poses behind it are those of the fit: no others were there
   /// In place of noise_m, at poses of the stations that it names; the first one's name is empty.
   std::map<std::string, double> station_noise_m{};
+  bool along_path = false;  ///< the poses of the data follow each other
 };
+
+/// What is to be said of radii that come from such poses.
+inline constexpr const char* kAlongPathRemark =
+    "the poses of the calibration follow each other along a path: at poses far from it the intervals may be too "
+    "narrow, although every joint was measured there";
 
 /// What is known of a model's numbers once its base and tools were fitted to `poses` of `data` (fit_registration, which
 /// made `registered`) while all else stayed as it was: the fit makes up for what the arm's numbers (`posterior`) are

@@ -216,6 +216,8 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
     sentences.emplace_back(
         "the radii that hold 95 % (± ... mm) come from the poses to which the model was fitted, since it had no "
         "validation poses: they may be too small");
+  if (model.posterior && model.interval && model.interval->along_path)
+    sentences.emplace_back("the radii that hold 95 % (± ... mm): " + std::string(kAlongPathRemark));
   if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
   if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {

@@ -36,6 +36,7 @@ std::string origin_of(const PredictionInterval& interval) {
   if (interval.gross_errors > 0)
     text += fmt::format("; {} far out left out: intervals hold for poses measured without gross errors",
                         interval.gross_errors);
+  if (interval.along_path) text += std::string("; ") + kAlongPathRemark;
   return text;
 }
 
