@@ -143,6 +143,10 @@ Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const
   return fitted_posterior(data, declared, calibration.robot, fitted_poses(data, calibration)).posterior;
 }
 
+Widening widening_at(const CalibratedModel& model, const Stop& stop) {
+  return widening(model.robot, {model.measured, model.measured_gaps}, stop);
+}
+
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration) {
   std::vector<Interval> ranges;
   for (const std::size_t pose : fitted_poses(data, calibration)) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -201,6 +202,11 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                         {},
                         uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
   evaluation.beyond_radii = beyond_radii_sentence(evaluation.pose_errors);
+  if (model.posterior && model.interval) {
+    std::vector<std::size_t> rows(data.poses.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    evaluation.widened_by = widened_sentences(model, data, rows);
+  }
   if (!evaluation.beyond_radii.empty()) evaluation.uncertainty.reset();
   evaluation.touches = has_contacts(data);
   if (evaluation.touches && !has_instrument(data)) {

@@ -227,7 +227,7 @@ TEST(Certificate, SaysWhatLiesOutsideAndWhatWasLeftOut) {
   CertifiedRun run = run_at(1e-3);
   run.notes = {"noted before"};
   const Certificate certificate = make_certificate(model, arm.data(), run);
-  EXPECT_TRUE(remarks_on(certificate, "8 of the 8 judged measurements lie outside"));
+  EXPECT_TRUE(remarks_on(certificate, "8 of the 8 measurements lie outside"));
   EXPECT_TRUE(remarks_on(certificate, "12 measurements are excluded in the data set's file: X0, X1, "));
   EXPECT_TRUE(remarks_on(certificate, "X9 and others."));
   EXPECT_TRUE(remarks_on(certificate, "noted before"));

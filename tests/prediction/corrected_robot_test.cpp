@@ -161,7 +161,7 @@ TEST(CorrectedCommand, OfFewerThanSixJointsPutsThePositionFirst) {
   }
 }
 
-TEST(NominalRobot, KnowsWhichPayloadsItIsToBeCalibratedWith) {
+TEST(NominalRobot, KnowsWhichPayloadsAndTemperaturesItIsToBeCalibratedWith) {
   DataSet data;
   data.robot.chain = wrist_arm();
   data.poses.resize(3);
