@@ -115,6 +115,10 @@ std::string posterior_text(const CalibratedModel& model) {
     const double ends[] = {carried->lower, carried->upper};
     text << "measured_payload_kg: " << yaml_numbers(ends) << '\n';
   }
+  if (const auto& warmth = model.robot.temperatures_celsius) {
+    const double ends[] = {warmth->lower, warmth->upper};
+    text << "measured_temperature_celsius: " << yaml_numbers(ends) << '\n';
+  }
   if (!model.measured.empty()) text << "measured_ranges:\n";
   for (std::size_t joint = 0; joint < model.measured.size(); ++joint) {
     text << "  - {joint: " << joint + 1 << ", " << range_text(model.nominal.chain.joints[joint], model.measured[joint])
@@ -145,6 +149,8 @@ std::string posterior_text(const CalibratedModel& model) {
 
 void read_posterior(const YamlNode& file, CalibratedModel& model) {
   if (const YamlNode* carried = file.find("measured_payload_kg")) model.robot.payloads_kg = read_ends(*carried);
+  if (const YamlNode* warmth = file.find("measured_temperature_celsius"))
+    model.robot.temperatures_celsius = read_ends(*warmth);
   if (const YamlNode* ranges = file.find("measured_ranges")) {
     const Chain& chain = model.nominal.chain;
     for (const YamlNode& entry : ranges->list(chain.joints.size())) {
