@@ -132,9 +132,9 @@ std::vector<CertifiedPose> certified_poses(const CalibratedModel& model, const D
     pose.temperature_celsius = data.poses[after[i].rows.front()].temperature_celsius;
     pose.approach = after[i].approach;
     if (model.posterior && model.interval) {
-      pose.uncertainty_mm = if_finite(millimetres(
-          radius95_m(*model.interval, *model.posterior, arms.after, data, data.poses[after[i].rows.front()],
-                     extrapolation(data.robot.chain, model.measured, data.poses[after[i].rows.front()].joints))));
+      pose.uncertainty_mm = if_finite(
+          millimetres(radius95_m(*model.interval, *model.posterior, arms.after, data, data.poses[after[i].rows.front()],
+                                 widening_at(model, Stop(data.poses[after[i].rows.front()])))));
     }
     poses.push_back(std::move(pose));
   }

@@ -54,6 +54,9 @@ class Remarks {
     if (model_.interval->fitted && certificate_.uncertainty)
       add("Uncertainties come from the poses to which the model was fitted, since there were no validation poses: they "
           "may be too narrow.");
+    if (model_.interval->along_path)
+      add("The poses that the model was made from follow each other along a path: uncertainties at poses far from it "
+          "may be too narrow, although every joint was measured there.");
   }
 
   void add_on_set() {
@@ -108,13 +111,7 @@ class Remarks {
   }
 
   void add_on_range() {
-    std::size_t outside = 0;
-    const std::vector<std::size_t> rows = judged_poses(data_);
-    for (const std::size_t row : rows)
-      outside += extrapolation(data_.robot.chain, model_.measured, data_.poses[row].joints) > kOutsideMeasured ? 1 : 0;
-    if (outside > 0)
-      add(fmt::format("{} of the {} judged measurements lie outside the joints that the model was measured at.",
-                      outside, rows.size()));
+    for (const std::string& sentence : widened_sentences(model_, data_, judged_poses(data_))) add(sentence);
   }
 
   void add_on_excluded() {

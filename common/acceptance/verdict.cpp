@@ -103,7 +103,6 @@ Judgement judge(std::span<const double> errors_m, double tolerance_m, double ins
 
 Judgement judge(std::span<const double> errors_m, std::span<const double> means_m, double tolerance_m,
                 double instrument_m, double noise_m) {
-  constexpr double kCoverageFactor = 2.0;
   Judgement judged{.tolerance_m = tolerance_m,
                    .lower_m = {},
                    .upper_m = {},

@@ -156,6 +156,10 @@ Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const
   return fitted_posterior(data, declared, calibration.robot, fitted_poses(data, calibration), noise).posterior;
 }
 
+Widening widening_at(const CalibratedModel& model, const Stop& stop) {
+  return widening(model.robot, {model.measured, model.measured_gaps}, stop);
+}
+
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration) {
   std::vector<Interval> ranges;
   for (const std::size_t pose : fitted_poses(data, calibration)) {
@@ -191,9 +195,13 @@ std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Ca
 }
 
 PredictionInterval interval_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {
-  if (calibration.unseen) return calibration.unseen->interval;
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
-  return prediction_interval(data, fitted_posterior(data, declared, calibration.robot, poses), calibration.robot);
+  PredictionInterval interval =
+      calibration.unseen
+          ? calibration.unseen->interval
+          : prediction_interval(data, fitted_posterior(data, declared, calibration.robot, poses), calibration.robot);
+  interval.along_path = follow_each_other(data);
+  return interval;
 }
 
 }  // namespace demecal::inline closed_calibration

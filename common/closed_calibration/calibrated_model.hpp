@@ -19,6 +19,7 @@
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"
+#include "parameters/widening.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline closed_calibration {
@@ -75,6 +76,9 @@ struct CalibratedModel {
   std::uint64_t seed = 0;
   std::string version;
 };
+
+/// By how much radii are larger at a stop than where the model was measured.
+Widening widening_at(const CalibratedModel& model, const Stop& stop);
 
 /// The covariance of the model's numbers over the poses it was fitted to: of base, links, tools and effects, and of
 /// what smooth terms could still change in corrections that are declared. Along what the poses do not show it is as

@@ -115,6 +115,10 @@ std::string posterior_text(const CalibratedModel& model) {
     const double ends[] = {carried->lower, carried->upper};
     text << "measured_payload_kg: " << yaml_numbers(ends) << '\n';
   }
+  if (const auto& warmth = model.robot.temperatures_celsius) {
+    const double ends[] = {warmth->lower, warmth->upper};
+    text << "measured_temperature_celsius: " << yaml_numbers(ends) << '\n';
+  }
   if (!model.measured.empty()) text << "measured_ranges:\n";
   for (std::size_t joint = 0; joint < model.measured.size(); ++joint) {
     text << "  - {joint: " << joint + 1 << ", " << range_text(model.nominal.chain.joints[joint], model.measured[joint])
@@ -145,6 +149,8 @@ std::string posterior_text(const CalibratedModel& model) {
 
 void read_posterior(const YamlNode& file, CalibratedModel& model) {
   if (const YamlNode* carried = file.find("measured_payload_kg")) model.robot.payloads_kg = read_ends(*carried);
+  if (const YamlNode* warmth = file.find("measured_temperature_celsius"))
+    model.robot.temperatures_celsius = read_ends(*warmth);
   if (const YamlNode* ranges = file.find("measured_ranges")) {
     const Chain& chain = model.nominal.chain;
     for (const YamlNode& entry : ranges->list(chain.joints.size())) {
@@ -201,7 +207,8 @@ std::string prediction_text(const CalibratedModel& model) {
          ", distance_noise_mm: " + millimetres_text(interval.distance_noise_m) +
          ", model_error_mm: " + millimetres_text(interval.model_error_m) +
          ", poses: " + std::to_string(interval.poses) + ", gross_errors: " + std::to_string(interval.gross_errors) +
-         ", told_by: " + (interval.fitted ? "calibration" : "validation") + station_noise_text(interval) + "}\n";
+         ", told_by: " + (interval.fitted ? "calibration" : "validation") + station_noise_text(interval) +
+         (interval.along_path ? ", along_path: true" : "") + "}\n";
 }
 
 void read_prediction(const YamlNode& file, CalibratedModel& model) {
@@ -209,7 +216,7 @@ void read_prediction(const YamlNode& file, CalibratedModel& model) {
   if (node == nullptr) return;
   constexpr int kMostPoses = 1'000'000'000;
   node->with_keys({"quantile", "noise_mm", "distance_noise_mm", "model_error_mm", "poses", "gross_errors", "told_by",
-                   "station_noise"});
+                   "station_noise", "along_path"});
   const auto length_m = [&](const char* key) { return metres(node->at(key).non_negative()); };
   const auto count = [&](const char* key) {
     return static_cast<std::size_t>(node->at(key).whole_number(0, kMostPoses));
@@ -222,6 +229,7 @@ void read_prediction(const YamlNode& file, CalibratedModel& model) {
                          .poses = count("poses"),
                          .gross_errors = count("gross_errors"),
                          .fitted = node->at("told_by").one_of<bool>({{"validation", false}, {"calibration", true}})};
+  if (const YamlNode* path = node->find("along_path")) model.interval->along_path = path->boolean();
   if (const YamlNode* stations = node->find("station_noise")) {
     for (const YamlNode& one : stations->list()) {
       one.with_keys({"station", "noise_mm"});

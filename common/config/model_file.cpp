@@ -254,6 +254,7 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
                   "measured_ranges",
                   "measured_gaps",
                   "measured_payload_kg",
+                  "measured_temperature_celsius",
                   "posterior",
                   "fleet",
                   "prediction_interval",
@@ -280,8 +281,7 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
   for (std::size_t i = 0; i < links.size(); ++i) read_link_numbers(links[i], model.robot.chain.joints[i]);
   model.robot.sensor_from_base = read_rigid(file.at("base"));
   for (const YamlNode& tool : file.at("tools").list()) {
-    tool.with_keys({"target", "pose"});
-    const YamlNode* target = tool.find("target");
+    const YamlNode* target = tool.with_keys({"target", "pose"}).find("target");
     model.robot.tools[target ? target->text() : ""] = read_rigid(tool.at("pose"));
   }
   read_stations(file.find("stations"), model.stations);

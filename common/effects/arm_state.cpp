@@ -51,6 +51,7 @@ Stop::Stop(const MeasuredPose& pose)
       approach(pose.approach.value_or(ApproachSigns{})),
       torque(pose.torque.value_or(JointVector{})),
       payload_kg(pose.payload_kg.value_or(0.0)),
+      payload_stated(pose.payload_kg.has_value()),
       temperature_celsius(pose.temperature_celsius),
       time_s(pose.time_s) {}
 

@@ -19,6 +19,7 @@ struct Stop {
   ApproachSigns approach;                       ///< -1, 0 or +1 per joint; empty: unknown, taken as 0
   JointVector torque{};                         ///< of the drives, as logged, Nm or N; empty: unknown, taken as 0
   double payload_kg = 0.0;                      ///< at the tool point
+  bool payload_stated = true;                   ///< otherwise it is taken so, and may be another
   std::optional<double> temperature_celsius{};  ///< none: effects take the arm to be at their reference
   std::optional<double> time_s{};               ///< none: effects take the stop to be at their reference
 

@@ -154,13 +154,21 @@ std::string plots(const Report& report) {
          choices + "</select></label></div>\n</div>\n";
 }
 
+/// Where the radii that hold 95 % come from.
+std::string radii_note(const Report& report) {
+  if (!report.prediction_interval || report.prediction_interval->remark.empty()) return {};
+  return "<p class=\"note\" id=\"radii\">Radii that hold 95 %: " + escaped(report.prediction_interval->remark) +
+         ".</p>\n";
+}
+
 }  // namespace
 
 std::string where_section(const Report& report) {
   if (report.pose_errors.empty()) return {};
   const std::string opening =
       "<p class=\"note\">Errors before are those that the closed loop started from, with everything declared fitted. "
-      "All of it is in pose-errors.csv, too. The table filters the pictures with it.</p>\n"
+      "All of it is in pose-errors.csv, too. The table filters the pictures with it.</p>\n" +
+      radii_note(report) +
       "<p class=\"pose-name\" id=\"pose-name\" aria-live=\"polite\">Point at a pose, or pick one in the table.</p>\n";
   return section("where", "Where the errors are",
                  opening + std::string(kView) + plots(report) + pose_table(report) + target_table(report) +

@@ -120,6 +120,11 @@ double CalibratedArm::error95_mm(const JointCommand& command) const {
   return radius_m ? millimetres(*radius_m) : std::numeric_limits<double>::quiet_NaN();
 }
 
+std::vector<std::string> CalibratedArm::widened_by(const JointCommand& command) const {
+  const CommandModel commands = to_command_model(implementation_->model);
+  return widening_at(commands, to_stop(command, commands.nominal.chain)).sentences();
+}
+
 std::string CalibratedArm::correct_program(const std::string& text, const std::string& file,
                                            std::vector<std::string>* warnings) const {
   const CalibratedModel& model = implementation_->model;

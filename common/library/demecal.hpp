@@ -173,8 +173,11 @@ class CalibratedArm {
   std::vector<double> correct(const JointCommand& command) const;
   /// The radius that holds the real tool point 95 % of the time about where predict() has it at `command`, or correct()
   /// sends it (k = 2): by the covariance of the model and its own error, without measurement noise, without what is not
-  /// known of the instrument's place, and larger outside what was measured. NaN where the model does not state it.
+  /// known of the instrument's place, and larger outside what was measured and, where effects depend on the
+  /// temperature, without one. NaN where the model does not state it.
   double error95_mm(const JointCommand& command) const;
+  /// Why that radius is larger than where the arm was measured: "joint 2 at 63 deg, measured -60 .. 60 deg".
+  std::vector<std::string> widened_by(const JointCommand& command) const;
   /// The text of a robot program with its targets corrected, as `demecal apply` does: what is not known to get better
   /// stays as it is. `file` names the program's language by its ending. `warnings`, where given, are added to.
   std::string correct_program(const std::string& text, const std::string& file,

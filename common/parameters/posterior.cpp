@@ -172,21 +172,8 @@ double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& p
   return axes * (larger * std::pow(noise_m, 2) + model_error_m2);
 }
 
-double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints) {
-  constexpr double kGrowth = 2.0, kLeastRange = 0.2;
-  double widened = 1.0;
-  for (std::size_t joint = 0; joint < measured.size() && joint < static_cast<std::size_t>(joints.size()); ++joint) {
-    const Interval& range = measured[joint];
-    const double centre = 0.5 * (range.lower + range.upper), half = 0.5 * (range.upper - range.lower);
-    double away = joints[static_cast<Eigen::Index>(joint)] - centre;
-    if (chain.joints[joint].type == JointType::revolute) away = std::remainder(away, 2.0 * std::numbers::pi);
-    widened += kGrowth * std::max(0.0, std::abs(away) - half) / std::max(2.0 * half, kLeastRange);
-  }
-  return widened;
-}
-
 double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                  const DataSet& data, const MeasuredPose& pose, double widened) {
+                  const DataSet& data, const MeasuredPose& pose, const Widening& there_by) {
   PredictionInterval there = interval;
   if (data.stations.empty()) there.station_noise_m.clear();  // whoever measured it is none of them
   PredictionInterval model_alone = there;
@@ -194,16 +181,18 @@ double radius95_m(const PredictionInterval& interval, const Posterior& posterior
   model_alone.station_noise_m.clear();
   const double model_m2 = posterior_square_m2(posterior, robot, data, pose) + noise_square_m2(model_alone, pose);
   const double noise_m2 = noise_square_m2(there, pose) - noise_square_m2(model_alone, pose);
-  return interval.quantile * std::sqrt(widened * widened * model_m2 + noise_m2);
+  return interval.quantile * std::sqrt(there_by.factor * there_by.factor * model_m2 + noise_m2) + there_by.unstated_m;
 }
 
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                       const Stop& stop, double widened) {
+                       const Stop& stop, const Widening& there_by) {
   const double real_m2 =
       pose_covariance(posterior, robot, stop).topLeftCorner<3, 3>().trace() + 3.0 * std::pow(interval.model_error_m, 2);
-  // The interval's quantile has the tails of measurement noise, and is told by few poses.
-  const double quantile = normal_length_quantile(3, kIntervalShare) / std::sqrt(3.0);
-  return widened * quantile * std::sqrt(real_m2);
+  return there_by.factor * real_quantile() * std::sqrt(real_m2) + there_by.unstated_m;
+}
+
+double real_quantile() {
+  return normal_length_quantile(3, kIntervalShare) / std::sqrt(3.0);
 }
 
 void leave_out_motion_as_a_whole(const std::vector<Eigen::Vector3d>& points_m, std::vector<Eigen::MatrixXd>& rows) {

@@ -15,6 +15,7 @@
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
+#include "parameters/widening.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 
@@ -79,7 +80,13 @@ struct PredictionInterval {
   bool fitted = false;            ///< the poses behind it are those of the fit: no others were there
   /// In place of noise_m, at poses of the stations that it names; the first one's name is empty.
   std::map<std::string, double> station_noise_m{};
+  bool along_path = false;  ///< the poses of the data follow each other
 };
+
+/// What is to be said of radii that come from such poses.
+inline constexpr const char* kAlongPathRemark =
+    "the poses of the calibration follow each other along a path: at poses far from it the intervals may be too "
+    "narrow, although every joint was measured there";
 
 /// What is known of a model's numbers once its base and tools were fitted to `poses` of `data` (fit_registration, which
 /// made `registered`) while all else stayed as it was: the fit makes up for what the arm's numbers (`posterior`) are
@@ -110,21 +117,23 @@ double posterior_square_m2(const Posterior& posterior, const CorrectedRobot& rob
 /// The expected square that noise and model error add at a pose, m^2.
 double noise_square_m2(const PredictionInterval& interval, const MeasuredPose& pose);
 
-/// By how much the model's part of an error is taken to be larger where joints stand outside what was measured: 1
-/// within the ranges, and growing by each joint's way outside, in shares of its range (whole turns aside). Nothing was
-/// seen there: the growth is a judgement, not a measurement.
-double extrapolation(const Chain& chain, std::span<const Interval> measured, const JointVector& joints);
-
 /// The radius that holds 95 % of the tool errors measured at that pose, m. Its measurement noise is in it (that of all
-/// stations, where `data` are of one: another one's than the model's, perhaps); all else is
-/// `widened` times as large (see extrapolation()).
+/// stations, where `data` are of one: another one's than the model's, perhaps); all else is larger as widening() says.
 double radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                  const DataSet& data, const MeasuredPose& pose, double widened = 1.0);
+                  const DataSet& data, const MeasuredPose& pose, const Widening& there_by = {});
+
+/// What a corrected position's radius that holds 95 % is, in root mean squares of what the model's numbers and its own
+/// error give: of normal errors, since the interval's quantile has the tails of measurement noise, and is told by few
+/// poses.
+double real_quantile();
+
+/// The coverage factor of all expanded uncertainties: radii that hold 95 % are so many standard uncertainties.
+inline constexpr double kCoverageFactor = 2.0;
 
 /// The radius about the predicted point of the robot's own tool that holds the real one 95 % of the time, m: without
-/// measurement noise, and of errors that are normal.
+/// measurement noise, by real_quantile(), and larger as widening() says.
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
-                       const Stop& stop, double widened = 1.0);
+                       const Stop& stop, const Widening& there_by = {});
 
 /// Leaves of every column what no shift and turn of the whole arm does as well, by least squares over all points.
 /// `rows`: how each of `points_m` moves, 3 x columns.

@@ -52,12 +52,7 @@ std::vector<Expression> symbols(Algebra& algebra, int joints, std::string (*name
 }
 
 Expression actual_of(const JointCorrection& correction, Expression commanded, int joint) {
-  if (correction.is_neutral()) return commanded;
-  const AngleBranch& branch = correction.branch();
-  const Expression on_branch = branch.wraps ? wrapped_near(commanded, branch.centre_rad) : commanded;
-  const Expression theta = held_within(on_branch, correction.range_rad());
-  return commanded +
-         commanded.algebra().formula('g' + std::to_string(joint), simplified(correction.formula()), {theta});
+  return commanded + added_by(correction, commanded, 'g' + std::to_string(joint));
 }
 
 /// From the base to the flange, without base and tool.
@@ -74,14 +69,20 @@ SymbolicFrame flange(Algebra& algebra, const Chain& chain, const std::vector<Exp
   return moved(frame * SymbolicFrame(algebra, chain.flange), places.back());
 }
 
-SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std::string& target,
-                        const std::vector<Expression>& actual, const SymbolicDisplacement& by) {
+std::vector<Expression> driven_by(Algebra& algebra, const Chain& chain, const std::vector<Expression>& actual,
+                                  const SymbolicDisplacement& by) {
   std::vector<Expression> joints = actual;
   for (std::size_t i = 0; i < joints.size(); ++i) joints[i] = joints[i] + by.joints[i];
-  for (const auto& [joint, from, factor] : robot.chain.couplings) {  // by commands alone: errors do not pass through
+  for (const auto& [joint, from, factor] : chain.couplings) {  // by commands alone: errors do not pass through
     Expression& turned = joints[static_cast<std::size_t>(joint)];
     turned = turned + factor * algebra.symbol(commanded_joint(from + 1));
   }
+  return joints;
+}
+
+SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std::string& target,
+                        const std::vector<Expression>& actual, const SymbolicDisplacement& by) {
+  const std::vector<Expression> joints = driven_by(algebra, robot.chain, actual, by);
   const SymbolicFrame base = moved(SymbolicFrame(algebra), by.sensor) * SymbolicFrame(algebra, robot.sensor_from_base);
   return base * (flange(algebra, robot.chain, joints, by.places) * SymbolicFrame(algebra, robot.tool(target)));
 }
@@ -128,7 +129,16 @@ std::string circumstances_sentence(const CorrectedArm& arm) {
 
 }  // namespace
 
-CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target) {
+Expression added_by(const JointCorrection& correction, Expression commanded, const std::string& name) {
+  Algebra& algebra = commanded.algebra();
+  if (correction.is_neutral()) return algebra.constant(0.0);
+  const AngleBranch& branch = correction.branch();
+  const Expression on_branch = branch.wraps ? wrapped_near(commanded, branch.centre_rad) : commanded;
+  return algebra.formula(name, simplified(correction.formula()), {held_within(on_branch, correction.range_rad())});
+}
+
+CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target,
+                           const std::string& effects) {
   const int n = robot.chain.size();
   const std::vector<Expression> commanded = symbols(algebra, n, commanded_joint);
   const std::vector<Expression> actual = symbols(algebra, n, actual_joint);
@@ -139,6 +149,8 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
   }
   SymbolicDisplacement by(algebra, static_cast<std::size_t>(n));
   const SymbolicFrame without = tool_pose(algebra, robot, target, actual, by);
+  arm.driven = driven_by(algebra, robot.chain, actual, by);
+  arm.places = by.places;
   if (robot.effects.empty()) {
     arm.pose = without.matrix();
     return arm;
@@ -153,14 +165,17 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
   state.tool_in_sensor = without.origin;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
     const Effect& effect = robot.effects[i];
-    const std::vector<SymbolicUnit> units = held_units(effect, state, "effect" + std::to_string(i + 1));
+    const std::vector<SymbolicUnit> units = held_units(effect, state, effects + std::to_string(i + 1));
     for (const SymbolicUnit& unit : units) {
       by.add(robot.chain, unit, effect.value(static_cast<std::size_t>(unit.coefficient)));
+      arm.units.push_back({i, unit});
     }
     const std::string note = note_on(effect, robot.described, !units.empty());
     if (!note.empty()) arm.notes.push_back(note);
   }
   arm.pose = tool_pose(algebra, robot, target, actual, by).matrix();
+  arm.driven = driven_by(algebra, robot.chain, actual, by);
+  arm.places = by.places;
   return arm;
 }
 

@@ -2,6 +2,7 @@
 // held within the ranges they were measured in.
 #pragma once
 
+#include <cstddef>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -16,17 +17,28 @@
 #include "symbolic/parse_expression.hpp"
 
 namespace demecal::inline prediction {
+/// What a unit of one of the model's coefficients does, as EffectMotion.
+struct SymbolicEffectUnit {
+  std::size_t effect = 0;  ///< of the model's, from 0
+  SymbolicUnit unit;
+};
+
 /// The formulas, and what the model knows beyond them.
 struct CorrectedArm {
   std::vector<Expression> actual;  ///< q + g(q) of each joint, of the symbol q1 .. qn
   SymbolicMatrix pose;  ///< of the tool in the measurements' frame, of q1 .. qn, actual1 .. actualn and circumstances
-  std::vector<std::string> notes;   ///< sentences: effects that are left out, or not held as they were measured
-  double reference_celsius = 20.0;  ///< above which kWarming counts: that of the model's first effect of warmth
+  std::vector<std::string> notes;           ///< sentences: effects that are left out, or not held as they were measured
+  double reference_celsius = 20.0;          ///< above which kWarming counts: that of the model's first effect of warmth
+  std::vector<Expression> driven{};         ///< where couplings and effects turn the joints
+  std::vector<SymbolicMotion> places{};     ///< how effects move the places of the arm
+  std::vector<SymbolicEffectUnit> units{};  ///< what these motions are made of
 };
 
 /// The model's prediction at any stop, of which neither the time nor the drives' torques are known: circumstances are
 /// the symbols of Listing. The expressions live in `algebra`. The robot must have the target.
-CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target);
+/// Formulas of effects are called `effects` and a number.
+CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target,
+                           const std::string& effects = "effect");
 
 /// Whose frame poses stand in: of a model whose base was not fitted, as from contacts, that of the arm's own base.
 enum class PoseFrame { measurements, own_base };
@@ -38,6 +50,9 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
 /// The listing of the arm as `robot.described` has it, in the base of `robot` and with a tool of its own: what
 /// inverse_in_c() corrects for.
 Listing described_listing(Algebra& algebra, const CorrectedRobot& robot, const Eigen::Isometry3d& tool);
+
+/// What the correction adds to a joint that is commanded so: a formula of that name.
+Expression added_by(const JointCorrection& correction, Expression commanded, const std::string& name);
 
 /// As wrap_near().
 inline Expression wrapped_near(Expression angle, double centre_rad) {

@@ -157,6 +157,16 @@ PoseAndJacobian CorrectedRobot::predict_with_jacobian(const Stop& stop, const st
   return result;
 }
 
+namespace {
+
+void widen_to(const std::optional<double>& value, std::optional<Interval>& range) {
+  if (!value) return;
+  if (!range) range = Interval{*value, *value};
+  range = Interval{std::min(range->lower, *value), std::max(range->upper, *value)};
+}
+
+}  // namespace
+
 CorrectedRobot nominal_robot(const DataSet& data) {
   CorrectedRobot robot;
   robot.chain = data.robot.chain;
@@ -166,10 +176,8 @@ CorrectedRobot nominal_robot(const DataSet& data) {
   for (const MeasuredPose& pose : data.poses) robot.tools.try_emplace(pose.target, tool_at(nominal_tool(data, pose)));
   robot.corrections.resize(robot.chain.joints.size());
   for (const MeasuredPose& pose : data.poses) {
-    if (!pose.payload_kg) continue;
-    Interval& range = robot.payloads_kg ? *robot.payloads_kg
-                                        : robot.payloads_kg.emplace(Interval{*pose.payload_kg, *pose.payload_kg});
-    range = {std::min(range.lower, *pose.payload_kg), std::max(range.upper, *pose.payload_kg)};
+    widen_to(pose.payload_kg, robot.payloads_kg);
+    widen_to(pose.temperature_celsius, robot.temperatures_celsius);
   }
   return robot;
 }

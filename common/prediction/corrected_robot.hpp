@@ -82,6 +82,8 @@ struct CorrectedRobot {
   Robot described{};  ///< the arm as its maker describes it; needed where there are effects
   /// Least and greatest payload that it was calibrated with; nothing where no pose stated one.
   std::optional<Interval> payloads_kg{};
+  /// The same of temperatures.
+  std::optional<Interval> temperatures_celsius{};
   /// Where contacts are taken to be, in the measurements' frame: estimates beside the arm, none of its numbers.
   std::map<ContactGroup, ContactPlace> contacts{};
   /// What takes points of a further station, as the data set gives them, to where the first station would measure them.

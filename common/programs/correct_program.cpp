@@ -69,8 +69,6 @@ class Corrector {
       corrected.unknown_side_m = unknown_side_m(model_for(target), corrected);
       if (corrected.error95_m) *corrected.error95_m += 0.5 * corrected.unknown_side_m;
     }
-    if (corrected.error95_m && !target.payload_kg && !circumstances_.payload_kg)
-      *corrected.error95_m += unknown_payload_m(model_for(target), corrected);
     corrected.texts = cell_texts(target, corrected);
     return corrected;
   }
@@ -222,6 +220,7 @@ class Corrector {
     Stop stop(joints);
     stop.approach = approach_of(target, visit.approach);
     stop.payload_kg = payload_of(target);
+    stop.payload_stated = target.payload_kg || circumstances_.payload_kg;
     stop.temperature_celsius =
         target.temperature_celsius ? target.temperature_celsius : circumstances_.temperature_celsius;
     stop.time_s = target.time_s;

@@ -57,6 +57,7 @@ std::string block(const Program& program, const Target& target, const CorrectedT
   if (names != last_heading) text += names;
   last_heading = names;
   text += row("nominal", figures.nominal) + row("corrected", figures.corrected) + row("difference", figures.difference);
+  if (!corrected.widened_by.empty()) text += "    radius widened: " + joined_words(corrected.widened_by, "; ") + '\n';
   for (const std::string& direction : corrected.left) text += "    " + direction + '\n';
   return text;
 }
@@ -80,8 +81,9 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
   json["moved_mm"] = figures.moved_mm;
   if (corrected.error95_m) {
     json["predicted_error95_mm"] = millimetres(*corrected.error95_m);
-    json["standard_uncertainty_mm"] = 0.5 * millimetres(*corrected.error95_m);
-    json["coverage_factor"] = 2;
+    json["standard_uncertainty_mm"] = millimetres(*corrected.error95_m) / kCoverageFactor;
+    json["coverage_factor"] = kCoverageFactor;
+    json["widened_by"] = corrected.widened_by;
   }
   json["left_as_programmed"] = corrected.left;
   if (target.is_pose()) json["turned_deg"] = figures.turned_deg;

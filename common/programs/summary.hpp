@@ -34,7 +34,8 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm);
 /// One JSON object on one line: `targets` in the order of the text with name, file, line, column, kind (joints or
 /// pose), joints_from (see JointsFrom), frame and tool, units, nominal, corrected, difference, moved_mm,
 /// predicted_error95_mm (radius that holds the real tool point 95 % of the time, without measurement noise; of models
-/// that state it; it is twice standard_uncertainty_mm, and coverage_factor says so), left_as_programmed (sentences),
+/// that state it; it is twice standard_uncertainty_mm, and coverage_factor says so), widened_by (why
+/// that radius is larger than where the arm was measured), left_as_programmed (sentences),
 /// and of poses turned_deg; `moved_mm` mean and max; `left`, how many are as they were; `warnings` (line 0: of the
 /// whole program).
 std::string summary_json(const CorrectedProgram& corrected, const Chain& arm);

@@ -113,50 +113,13 @@ std::string joint_label(int joint) {
   return "joint " + std::to_string(joint + 1);
 }
 
-namespace {
-
-/// By how much the model's part of an error is taken to be larger with more in the hand than was measured, as
-/// extrapolation() has it for joints: what the arm gives by there was not seen.
-double beyond_payload(const CommandModel& model, double payload_kg) {
-  constexpr double kGrowth = 2.0, kLeastRange_kg = 1.0;
-  const std::optional<Interval>& carried = model.robot.payloads_kg;
-  if (!carried || payload_kg <= carried->upper) return 0.0;
-  return kGrowth * (payload_kg - carried->upper) / std::max(carried->upper - carried->lower, kLeastRange_kg);
+Widening widening_at(const CommandModel& model, const Stop& stop) {
+  return widening(model.robot, {model.measured, model.gaps}, stop);
 }
-
-/// The same of joints inside of stretches in which nothing was measured, by their way from what was.
-double inside_gaps(const CommandModel& model, const JointVector& joints) {
-  constexpr double kGrowth = 2.0, kLeastRange = 0.2;
-  double widened = 0.0;
-  for (int joint = 0; joint < joints.size() && !model.measured.empty(); ++joint) {
-    const std::optional<Interval> gap = inside_gap(model, joint, joints[joint]);
-    if (!gap) continue;
-    const Interval& range = model.measured[static_cast<std::size_t>(joint)];
-    widened += kGrowth * std::min(joints[joint] - gap->lower, gap->upper - joints[joint]) /
-               std::max(range.upper - range.lower, kLeastRange);
-  }
-  return widened;
-}
-
-}  // namespace
 
 std::optional<double> error95_m(const CommandModel& model, const Stop& stop) {
   if (!model.posterior || !model.interval) return std::nullopt;
-  return real_radius95_m(*model.interval, *model.posterior, model.robot, stop,
-                         extrapolation(model.nominal.chain, model.measured, stop.joints) +
-                             beyond_payload(model, stop.payload_kg) + inside_gaps(model, stop.joints));
-}
-
-double unknown_payload_m(const CommandModel& model, const CorrectedTarget& corrected) {
-  if (!model.robot.payloads_kg) return 0.0;
-  Stop stop = corrected.stop.with_joints(corrected.command);
-  const Eigen::Vector3d taken_m = model.robot.predict(stop, "").translation();
-  double most_m = 0.0;
-  for (const double payload_kg : {model.robot.payloads_kg->lower, model.robot.payloads_kg->upper}) {
-    stop.payload_kg = payload_kg;
-    most_m = std::max(most_m, (model.robot.predict(stop, "").translation() - taken_m).norm());
-  }
-  return most_m;
+  return real_radius95_m(*model.interval, *model.posterior, model.robot, stop, widening_at(model, stop));
 }
 
 CorrectedTarget correct_target(const Target& target, const CommandModel& model, const Stop& stop) {
@@ -174,6 +137,7 @@ CorrectedTarget correct_target(const Target& target, const CommandModel& model, 
   corrected.command_tool = model.nominal_tool(corrected.command);
   if (target.is_pose()) settle_position(target, model, goal.translation(), corrected);
   corrected.error95_m = error95_m(model, stop);
+  if (corrected.error95_m) corrected.widened_by = widening_at(model, stop).sentences();
   if (corrected.error95_m) *corrected.error95_m += corrected.left_m + corrected.residual_m;
   return corrected;
 }

@@ -45,6 +45,7 @@ struct CorrectedTarget {
   /// Holds the real tool point about where the program sends it 95 % of the time: what is known to be left of its error
   /// is added.
   std::optional<double> error95_m{};
+  std::vector<std::string> widened_by{};  ///< why that radius is larger than where the arm was measured
   /// How far apart the real tool point may stand by the sides of approach that are not known; half is in error95_m.
   double unknown_side_m = 0.0;
   std::vector<std::string> remarks{};  ///< what a user should know of how it was corrected
@@ -60,9 +61,8 @@ struct CorrectedTarget {
 /// outside what was measured. Nothing where the model does not state it.
 std::optional<double> error95_m(const CommandModel& model, const Stop& stop);
 
-/// How far the real tool point may stand from where it is predicted, m, where nobody states the payload: with any that
-/// the arm was measured with.
-double unknown_payload_m(const CommandModel& model, const CorrectedTarget& corrected);
+/// By how much that radius is larger than where the arm was measured, and why.
+Widening widening_at(const CommandModel& model, const Stop& stop);
 
 /// Sends the target, whose nominal joints and circumstances are `stop`, to where model(command) = nominal: as far as
 /// the model's posterior determines the correction (see determined_part()), and without large joint motions near

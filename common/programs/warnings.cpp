@@ -192,16 +192,48 @@ std::vector<std::string> warnings_of(const CorrectedTarget& corrected, const Com
 
 namespace {
 
-/// Where targets carry more than the arm was measured with.
-void check_payloads(const Program& program, const CommandModel& model, const Circumstances& given,
-                    std::vector<std::string>& sentences) {
-  double most_kg = given.payload_kg.value_or(0.0);
-  for (const Target& target : program.targets) most_kg = std::max(most_kg, target.payload_kg.value_or(0.0));
-  if (!model.robot.payloads_kg || most_kg <= model.robot.payloads_kg->upper) return;
-  sentences.push_back("the payload of " + number_text(most_kg) + " kg is more than the " +
-                      number_text(model.robot.payloads_kg->upper) +
-                      " kg that the arm was measured with at most: what it gives by there was not seen, and the radii "
-                      "(± ... mm) are widened by judgement; measure some poses with that payload");
+/// Where targets carry what the arm was not measured with, or are warmer or colder than it was then.
+class UnmeasuredCircumstances {
+ public:
+  UnmeasuredCircumstances(std::string subject, std::string unit, const std::optional<Interval>& measured)
+      : subject_(std::move(subject)), unit_(std::move(unit)), measured_(measured) {}
+
+  void see(const std::optional<double>& value) {
+    constexpr double kSame = 1e-9;
+    if (!value || !measured_) return;
+    const double outside = std::max(*value - measured_->upper, measured_->lower - *value);
+    if (outside <= std::max(outside_, kSame)) return;
+    outside_ = outside;
+    farthest_ = *value;
+  }
+
+  void say(std::vector<std::string>& sentences) const {
+    if (outside_ <= 0.0) return;
+    sentences.push_back("the " + subject_ + " of " + number_text(farthest_) + " " + unit_ + " is outside the " +
+                        number_text(measured_->lower) + " .. " + number_text(measured_->upper) + " " + unit_ +
+                        " that the arm was measured with: how it errs there was not seen, and the radii (± ... mm) are "
+                        "widened by judgement; measure some poses at that " +
+                        subject_);
+  }
+
+ private:
+  std::string subject_, unit_;
+  std::optional<Interval> measured_;
+  double outside_ = 0.0, farthest_ = 0.0;
+};
+
+void check_unmeasured(const Program& program, const CommandModel& model, const Circumstances& given,
+                      std::vector<std::string>& sentences) {
+  UnmeasuredCircumstances payload("payload", "kg", model.robot.payloads_kg);
+  UnmeasuredCircumstances temperature("temperature", "°C", model.robot.temperatures_celsius);
+  payload.see(given.payload_kg);
+  temperature.see(given.temperature_celsius);
+  for (const Target& target : program.targets) {
+    payload.see(target.payload_kg);
+    temperature.see(target.temperature_celsius);
+  }
+  payload.say(sentences);
+  temperature.say(sentences);
 }
 
 }  // namespace
@@ -216,6 +248,8 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
     sentences.emplace_back(
         "the radii that hold 95 % (± ... mm) come from the poses to which the model was fitted, since it had no "
         "validation poses: they may be too small");
+  if (model.posterior && model.interval && model.interval->along_path)
+    sentences.emplace_back("the radii that hold 95 % (± ... mm): " + std::string(kAlongPathRemark));
   if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
   if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {
@@ -223,7 +257,7 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
   }
   check_circumstances(program, model, circumstances, sentences);
-  check_payloads(program, model, circumstances, sentences);
+  check_unmeasured(program, model, circumstances, sentences);
   for (const Effect& effect : model.robot.effects)
     if (const std::string_view reversal = law_of(effect).reversal(effect); !reversal.empty())
       sentences.push_back(names_of({&effect}) + ": " + std::string(reversal));

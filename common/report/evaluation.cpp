@@ -36,6 +36,7 @@ std::string origin_of(const PredictionInterval& interval) {
   if (interval.gross_errors > 0)
     text += fmt::format("; {} far out left out: intervals hold for poses measured without gross errors",
                         interval.gross_errors);
+  if (interval.along_path) text += std::string("; ") + kAlongPathRemark;
   return text;
 }
 
@@ -49,7 +50,8 @@ void fields(auto& visit, Like<UnappliedEffect> auto& effect) {
 void fields(auto& visit, Like<Evaluation> auto& evaluation) {
   visit("error_mm", evaluation.error_mm, "pose_errors", evaluation.pose_errors, "data_check", evaluation.data_check,
         "effects_not_applied", evaluation.effects_not_applied, "uncertainty", evaluation.uncertainty, "beyond_radii",
-        evaluation.beyond_radii, "orientations_judged", evaluation.orientations_judged);
+        evaluation.beyond_radii, "widened_by", evaluation.widened_by, "orientations_judged",
+        evaluation.orientations_judged);
   visit.when(evaluation.touches, "length_errors_mm", evaluation.length_errors);
 }
 
@@ -88,14 +90,14 @@ std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedMod
     const MeasuredPose& pose = data.poses[i];
     PoseErrorEntry& entry = poses[i];
     entry = {pose.pose_id, pose.target, std::string(to_string(pose.set)), {}, {}, {}};
-    const double widened = extrapolation(data.robot.chain, model.measured, pose.joints);
+    const Widening there_by = widening_at(model, Stop(pose));
     if (!pose.contact.empty() && untold.contains(group_of(pose))) return;
     if (before != nullptr) entry.before_mm = if_finite(millimetres(before_m[i]));
     entry.after_mm = if_finite(millimetres(after_m[i]));
     if (model.posterior && model.interval)
       entry.interval95_mm =
-          if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose, widened)));
-    if (widened > kOutsideMeasured) entry.flags.emplace_back("outside_measured");
+          if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose, there_by)));
+    if (there_by.factor > kWorthFlagging) entry.flags.emplace_back("outside_measured");
   });
   return poses;
 }
@@ -222,9 +224,9 @@ namespace {
 /// Poses enough for a mean of what the posterior says.
 constexpr std::size_t kMostJudged = 300;
 
-/// Means over poses, widened outside the measured joints as radii are there.
+/// Means over poses, widened outside of what was measured as radii are there.
 struct MeanSquares {
-  double numbers_m2 = 0.0, left_m2 = 0.0;
+  double numbers_m2 = 0.0, left_m2 = 0.0, unstated_m2 = 0.0;
 };
 
 MeanSquares mean_squares(const CalibratedModel& model, const DataSet& data, std::span<const std::size_t> rows) {
@@ -233,13 +235,16 @@ MeanSquares mean_squares(const CalibratedModel& model, const DataSet& data, std:
   double count = 0.0;
   for (std::size_t i = 0; i < rows.size(); i += step) {
     const MeasuredPose& pose = data.poses[rows[i]];
-    const double widened_squared = std::pow(extrapolation(data.robot.chain, model.measured, pose.joints), 2);
+    const Widening there_by = widening_at(model, Stop(pose));
+    const double widened_squared = std::pow(there_by.factor, 2);
     mean.numbers_m2 += widened_squared * posterior_square_m2(*model.posterior, model.robot, data, pose);
     mean.left_m2 += widened_squared * 3.0 * std::pow(model.interval->model_error_m, 2);
+    mean.unstated_m2 += std::pow(there_by.unstated_m, 2);
     count += 1.0;
   }
   mean.numbers_m2 /= count;
   mean.left_m2 /= count;
+  mean.unstated_m2 /= count;
   return mean;
 }
 
@@ -248,17 +253,21 @@ MeanSquares mean_squares(const CalibratedModel& model, const DataSet& data, std:
 std::optional<UncertaintyEntry> uncertainty_of(const CalibratedModel& model, const DataSet& data,
                                                std::span<const std::size_t> rows, std::optional<double> instrument_m) {
   if (!model.posterior || !model.interval || rows.empty()) return std::nullopt;
-  const double scale = model.interval->quantile / kCoverageFactor;
+  const double scale = real_quantile() / kCoverageFactor;
   const MeanSquares mean = mean_squares(model, data, rows);
   const double numbers_m = scale * std::sqrt(mean.numbers_m2), left_m = scale * std::sqrt(mean.left_m2);
   const double stated_m = instrument_m.value_or(0.0) / kCoverageFactor;
-  const double standard_m = std::sqrt(numbers_m * numbers_m + left_m * left_m + stated_m * stated_m);
+  const double unstated_m = std::sqrt(mean.unstated_m2) / kCoverageFactor;
+  const double standard_m = std::hypot(std::hypot(numbers_m, left_m), std::hypot(stated_m, unstated_m));
   UncertaintyEntry entry;
   entry.contributions = {
       {"numbers of the model, from the noise of the calibration measurements", "A", if_finite(millimetres(numbers_m))},
       {"error that the model leaves at poses it was not fitted to", "A", if_finite(millimetres(left_m))},
       {"instrument, as its calibration states", "B", {}}};
   if (instrument_m) entry.contributions.back().standard_mm = millimetres(stated_m);
+  if (unstated_m > 0.0)
+    entry.contributions.push_back(
+        {"payload or temperature, which poses do not state: any that was measured", "B", millimetres(unstated_m)});
   entry.standard_mm = if_finite(millimetres(standard_m));
   entry.coverage_factor = kCoverageFactor;
   entry.expanded_mm = if_finite(millimetres(kCoverageFactor * standard_m));

@@ -37,12 +37,9 @@ struct UncertaintyEntry {
   std::string remark;                     ///< where the figures come from
 };
 
-/// The coverage factor of all expanded uncertainties.
-inline constexpr double kCoverageFactor = 2.0;
-
-/// Over the poses `rows` of `data`, root mean squares. Contributions are scaled by half the quantile of the model's
-/// prediction interval, so that kCoverageFactor times the standard uncertainty is the radius that held 95 % of the
-/// errors the quantile was found from. `instrument_m`: the expanded uncertainty stated for the instrument. Nothing
+/// Over the poses `rows` of `data`, root mean squares. Contributions are scaled so that kCoverageFactor times the
+/// standard uncertainty is what `apply` states of targets there (see real_radius95_m()), where the instrument is left
+/// out and everything is stated. `instrument_m`: the expanded uncertainty stated for the instrument. Nothing
 /// where the model does not state its covariance.
 std::optional<UncertaintyEntry> uncertainty_of(const CalibratedModel& model, const DataSet& data,
                                                std::span<const std::size_t> rows, std::optional<double> instrument_m);
@@ -50,8 +47,10 @@ std::optional<UncertaintyEntry> uncertainty_of(const CalibratedModel& model, con
 SetErrors set_errors(const ErrorFigures& figures);
 ErrorBySet errors_by_set(const CorrectedRobot& robot, const DataSet& data);
 
-/// Of extrapolation(): above it a pose counts as outside the measured joints; less is not worth a flag.
-inline constexpr double kOutsideMeasured = 1.1;
+/// Of the poses `rows`: how many lie outside of what `model` was measured at, by which joints and circumstances, and
+/// how far at most, and how many leave unstated what their errors depend on. Empty where there is nothing to say.
+std::vector<std::string> widened_sentences(const CalibratedModel& model, const DataSet& data,
+                                           std::span<const std::size_t> rows);
 
 /// Of all poses of the data, in their order, by a model that predicts them with `robot` (its own, or the same with
 /// another base). `before`: none where it is not known.
@@ -129,6 +128,7 @@ struct Evaluation {
   std::optional<PredictionEntry> prediction;      ///< for people alone
   std::optional<UncertaintyEntry> uncertainty{};  ///< of a corrected position at poses like these
   std::string beyond_radii{};                     ///< where poses do not keep to their radii; then no uncertainty
+  std::vector<std::string> widened_by{};          ///< see widened_sentences(), of all poses
   /// For people alone, in its place where poses only touch something: they agree with means of their own, which tells
   /// nothing of where the tool is.
   std::optional<WorkspaceEntry> workspace_error{};

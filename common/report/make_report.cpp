@@ -233,11 +233,6 @@ Report make_report(const Conclusions& run) {
   report.length_errors = length_error_entries(data, model.robot, &run.before);
   report.contact_notes = contact_notes(data, model.robot, report.length_errors, report.fitted_sets);
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
-  if (report.prediction_interval && follow_each_other(data))
-    report.prediction_interval->remark +=
-        "; the poses follow each other along a path: at poses far from it the intervals may be too narrow, although "
-        "every "
-        "joint was measured there";
   report.workspace_error = without_figures_of_one_contact(workspace_entry(model, has_instrument(data)), data);
   report.noise_floor_mm = noise_floor_mm(data);
   set_loop(run.loop, model.nominal, report);

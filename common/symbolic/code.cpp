@@ -34,6 +34,7 @@ class CodeFile {
       : listing_(listing), printer_(language), pose_(elements(listing.pose)) {
     everything_ = pose_;
     everything_.insert(everything_.end(), listing.actual.begin(), listing.actual.end());
+    everything_.insert(everything_.end(), listing.also.begin(), listing.also.end());
   }
 
   std::string text() { return remarks("") + equations(); }
@@ -215,8 +216,8 @@ std::string CodeFile::python() {
 
 std::string CodeFile::matlab() {
   std::ostringstream out;
-  out << "function [pose, h] = forward(q" << (has_circumstances() ? ", payload_kg, warming_kelvin, approach" : "")
-      << ")\n"
+  out << "function [pose, h" << (listing_.with_radius ? ", radius95" : "") << "] = forward(q"
+      << (has_circumstances() ? ", payload_kg, warming_kelvin, approach" : "") << ")\n"
       << remarks("% ");
   if (has_circumstances()) {
     const std::string zeros = "zeros(1, " + std::to_string(joints()) + ")";
@@ -238,7 +239,10 @@ std::string CodeFile::matlab() {
   for (std::size_t i = 0; i < pose_.size(); ++i) {
     out << "  pose(" << i / 4 + 1 << ", " << i % 4 + 1 << ") = " << steps.results[i] << ";\n";
   }
-  out << "  h = [" << comma_separated(actual) << "];\nend\n\n";
+  out << "  h = [" << comma_separated(actual) << "];\n";
+  if (listing_.with_radius)
+    out << "  if nargout > 2\n    radius95 = radius_of(q, payload_kg, warming_kelvin, approach, nargin > 2);\n  end\n";
+  out << "end\n\n";
   for (std::size_t i = 0; i < joints(); ++i) {
     const Steps of_joint = plan_steps({listing_.actual[i]}, printer_);
     out << "function x = h" << number_of(i) << "(q" << number_of(i) << ")\n"

@@ -20,6 +20,8 @@ struct Listing {
   /// Where it is set, pose may refer also to kPayload, kWarming (above so many degC) and the approach of every joint,
   /// which are then arguments of `forward`; 0 where they are left out.
   std::optional<double> reference_celsius{};
+  std::vector<Expression> also{};  ///< of code that follows: its formulas are written with the listing's
+  bool with_radius = false;        ///< radius_code() follows: in MATLAB a further output of `forward` calls it
 };
 
 /// "q1" and "actual1" of the joint that counts from 1.

@@ -236,6 +236,7 @@ std::string to_terminal(const Evaluation& evaluation) {
   }
   text += lengths(evaluation.length_errors);
   text += intervals_text(evaluation.pose_errors, evaluation.prediction);
+  for (const std::string& sentence : evaluation.widened_by) text += wrapped("  NOTE:", sentence, 4);
   const bool said = !beyond_radii_sentence(coverage_of(evaluation.pose_errors)).empty();
   if (!said && !evaluation.beyond_radii.empty()) text += wrapped("  NOTE:", evaluation.beyond_radii, 4);
   if (evaluation.uncertainty && evaluation.uncertainty->expanded_mm) {

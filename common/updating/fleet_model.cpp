@@ -109,6 +109,7 @@ std::optional<PredictionInterval> common_interval(const Models& models) {
     all.model_error_m += share * own.model_error_m * own.model_error_m;
     all.poses = quantiles.empty() ? own.poses : std::min(all.poses, own.poses);
     all.fitted = all.fitted || own.fitted;
+    all.along_path = all.along_path || own.along_path;
     quantiles.push_back(own.quantile);
   }
   std::ranges::sort(quantiles);

@@ -94,7 +94,8 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
   };
   Update update = updated_by(calibration);
   const std::optional<double> unseen = unseen_rms_mm(data, update.robot);
-  const PredictionInterval interval = prediction_interval(data, update.fitted, update.robot);
+  PredictionInterval interval = prediction_interval(data, update.fitted, update.robot);
+  interval.along_path = follow_each_other(data);
   const std::vector<std::size_t> last = poses_of_last_fit(data);
   std::optional<UnseenValidation> seen_last;
   if (last != calibration) {

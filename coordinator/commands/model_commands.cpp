@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -25,8 +26,10 @@
 #include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
 #include "kinematics/chain.hpp"
+#include "library/conversion.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/posterior.hpp"
+#include "parameters/symbolic_radius.hpp"
 #include "prediction/corrected_arm.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "programs/command_model.hpp"
@@ -36,6 +39,7 @@
 #include "symbolic/algebra.hpp"
 #include "symbolic/code.hpp"
 #include "symbolic/printing.hpp"
+#include "symbolic/radius_code.hpp"
 #include "terminal/report_text.hpp"
 #include "trials/finding.hpp"
 #include "updating/fleet_model.hpp"
@@ -82,6 +86,7 @@ CorrectedRobot as_drawn(const Robot& robot) {
 struct ExportedListing {
   Listing listing;
   std::string inverse_in_c{};
+  std::optional<RadiusListing> radius{};
 };
 
 ExportedListing listing_of_robot(Algebra& algebra, const ExportRequest& request, const CorrectedRobot& robot,
@@ -93,6 +98,16 @@ ExportedListing listing_of_robot(Algebra& algebra, const ExportRequest& request,
   const Eigen::Isometry3d believed =
       request.target.empty() ? believed_tool(robot.described.chain.tool_m, identified) : identified;
   return {listing_of(arm, robot, title, frame), inverse_in_c(described_listing(algebra, robot, believed))};
+}
+
+/// Of the robot's own tool, of models that state how sure they are.
+std::optional<RadiusListing> radius_of(Algebra& algebra, const ExportRequest& request, const CalibratedModel& model,
+                                       double reference_celsius) {
+  if (!request.target.empty() || model.fleet) return std::nullopt;
+  const CommandModel commands = to_command_model(model);
+  if (!commands.posterior || !commands.interval) return std::nullopt;
+  return symbolic_radius(algebra, *commands.interval, *commands.posterior, commands.robot,
+                         {commands.measured, commands.gaps}, reference_celsius);
 }
 
 /// By what the file says that it is: a model, a robot, or matrices.
@@ -108,8 +123,11 @@ ExportedListing listing_asked(Algebra& algebra, const ExportRequest& request) {
   say_if_fleet(model, request.file);
   const std::string title =
       fmt::format("{} as calibrated by the job {} (demecal {})", model.nominal.name, model.job, model.version);
-  return listing_of_robot(algebra, request, model.robot, title,
-                          model.declared.registration ? PoseFrame::measurements : PoseFrame::own_base);
+  ExportedListing exported =
+      listing_of_robot(algebra, request, model.robot, title,
+                       model.declared.registration ? PoseFrame::measurements : PoseFrame::own_base);
+  exported.radius = radius_of(algebra, request, model, *exported.listing.reference_celsius);
+  return exported;
 }
 
 void write_or_print(const ExportRequest& request, const std::string& text) {
@@ -143,14 +161,21 @@ ExitCode run_links(const ExportRequest& request) {
 ExitCode run_export(const ExportRequest& request) {
   if (!code_languages().contains(request.format)) return run_links(request);
   Algebra algebra;
-  auto [listing, inverse] = listing_asked(algebra, request);
+  auto [listing, inverse, radius] = listing_asked(algebra, request);
   if (request.derivative > static_cast<int>(listing.actual.size())) {
     throw InputError({request.file, 0}, std::to_string(request.derivative),
                      "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
   }
   if (request.derivative > 0) listing = derivative(listing, request.derivative);
-  const bool with_inverse = request.format == "c" && request.derivative == 0;
-  write_or_print(request, code_of(listing, code_languages().at(request.format)) + (with_inverse ? inverse : ""));
+  const CodeLanguage language = code_languages().at(request.format);
+  const bool with_inverse = language == CodeLanguage::c && request.derivative == 0;
+  std::string text_of_radius;
+  if (radius && request.derivative == 0) text_of_radius = radius_code(*radius, listing, language);
+  if (!text_of_radius.empty()) {
+    listing.also = radius->expressions();
+    listing.with_radius = true;
+  }
+  write_or_print(request, code_of(listing, language) + (with_inverse ? inverse : "") + text_of_radius);
   return ExitCode::done;
 }
 
@@ -201,6 +226,11 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
                         {},
                         uncertainty_of(model, data, judged_poses(data), model.certificate.instrument_uncertainty_m)};
   evaluation.beyond_radii = beyond_radii_sentence(evaluation.pose_errors);
+  if (model.posterior && model.interval) {
+    std::vector<std::size_t> rows(data.poses.size());
+    std::iota(rows.begin(), rows.end(), std::size_t{0});
+    evaluation.widened_by = widened_sentences(model, data, rows);
+  }
   if (!evaluation.beyond_radii.empty()) evaluation.uncertainty.reset();
   evaluation.touches = has_contacts(data);
   if (evaluation.touches && !has_instrument(data)) {

@@ -205,6 +205,16 @@ TEST(Certificate, StatesNoCorrectedPositionWherePosesDoNotKeepToTheirRadii) {
   EXPECT_TRUE(remarks_on(beyond, "Only 0 of 20 accept poses lie within the radius"));
 }
 
+TEST(Certificate, SaysWhereTheModelWasMeasuredAlongAPath) {
+  SentArm arm(29);
+  add_others(arm, PoseSet::accept, 8);
+  CalibratedModel model = model_of(arm);
+  model.posterior = Posterior{};
+  EXPECT_FALSE(remarks_on(make_certificate(model, arm.data(), run_at(1e-3)), "along a path"));
+  model.interval->along_path = true;
+  EXPECT_TRUE(remarks_on(make_certificate(model, arm.data(), run_at(1e-3)), "follow each other along a path"));
+}
+
 TEST(Certificate, SaysWhatLiesOutsideAndWhatWasLeftOut) {
   SentArm arm(28);
   add_others(arm, PoseSet::accept, 8);
@@ -217,7 +227,7 @@ TEST(Certificate, SaysWhatLiesOutsideAndWhatWasLeftOut) {
   CertifiedRun run = run_at(1e-3);
   run.notes = {"noted before"};
   const Certificate certificate = make_certificate(model, arm.data(), run);
-  EXPECT_TRUE(remarks_on(certificate, "8 of the 8 judged measurements lie outside"));
+  EXPECT_TRUE(remarks_on(certificate, "8 of the 8 measurements lie outside"));
   EXPECT_TRUE(remarks_on(certificate, "12 measurements are excluded in the data set's file: X0, X1, "));
   EXPECT_TRUE(remarks_on(certificate, "X9 and others."));
   EXPECT_TRUE(remarks_on(certificate, "noted before"));

@@ -141,8 +141,9 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   for (Eigen::Index row = 0; row < 5; ++row)
     for (Eigen::Index column = 0; column <= row; ++column) posterior.factor(row, column) = stream.normal() * 1e-4;
   model.posterior = posterior;
-  model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true, {{"", 2e-5}, {"B: door", 1e-3}}};
+  model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true, {{"", 2e-5}, {"B: door", 1e-3}}, true};
   for (int joint = 0; joint < 6; ++joint) model.measured.push_back({stream.real(-2, 0), stream.real(0, 2)});
+  model.robot.temperatures_celsius = Interval{stream.real(15, 20), 25.0};
   model.robot.payloads_kg = Interval{0.0, stream.real(1, 9)}, model.measured_gaps = {{1, {{-0.5, 0.25}, {0.5, 1.0}}}};
   const CalibratedModel read = written_and_read(model);
   ASSERT_TRUE(read.posterior && read.interval);
@@ -150,9 +151,8 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   EXPECT_DOUBLE_EQ(read.interval->noise_m, 3e-5);
   EXPECT_DOUBLE_EQ(read.interval->distance_noise_m, 2e-5);
   EXPECT_DOUBLE_EQ(read.interval->model_error_m, 1.25e-4);
-  EXPECT_EQ(read.interval->poses, 30U);
-  EXPECT_EQ(read.interval->gross_errors, 2U);
-  EXPECT_TRUE(read.interval->fitted);
+  EXPECT_TRUE(read.interval->poses == 30U && read.interval->gross_errors == 2U);
+  EXPECT_TRUE(read.interval->fitted && read.interval->along_path);
   EXPECT_DOUBLE_EQ(read.interval->station_noise_m.at("") + 2 * read.interval->station_noise_m.at("B: door"), 2.02e-3);
   EXPECT_EQ(read.posterior->ids, posterior.ids);
   ASSERT_EQ(read.posterior->terms.size(), 1u);
@@ -160,7 +160,8 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   EXPECT_DOUBLE_EQ(read.posterior->terms[0].shape(0.6), posterior.terms[0].shape(0.6));
   EXPECT_LT((read.posterior->factor - posterior.factor).cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_TRUE(read.measured == model.measured && read.measured_gaps == model.measured_gaps);
-  EXPECT_EQ(read.robot.payloads_kg, model.robot.payloads_kg);
+  EXPECT_TRUE(read.robot.payloads_kg == model.robot.payloads_kg &&
+              read.robot.temperatures_celsius == model.robot.temperatures_celsius);
 }
 
 /// Two joints with formulas of one structure, which is a shared function.

@@ -47,6 +47,15 @@ TEST(WherePage, HasRowsForReadersWithoutScriptsTheLargestErrorFirst) {
   for (std::size_t i = 1; i < rows.size(); ++i) EXPECT_GE(std::stod(rows[i - 1][3]), std::stod(rows[i][3]));
 }
 
+TEST(WherePage, SaysWhereRadiiComeFrom) {
+  Report report = with_measured_poses(made_up_report(), 40);
+  report.prediction_interval.reset();
+  EXPECT_THAT(report_html(report, {}), Not(HasSubstr("id=\"radii\"")));
+  report.prediction_interval = PredictionEntry{};
+  report.prediction_interval->remark = "the poses follow each other along a path & more";
+  EXPECT_THAT(report_html(report, {}), HasSubstr("95 %: the poses follow each other along a path &amp; more.</p>"));
+}
+
 TEST(WherePage, CountsPosesAndNotTheTargetsThatMeasuredThem) {
   Report report = made_up_report();
   report.poses.calibration = 120;

@@ -145,6 +145,9 @@ TEST(LibraryCalibration, SaysHowFarOffTheCorrectedToolMayBe) {
   }
   EXPECT_GE(within, kCommands * 9 / 10);
   EXPECT_GT(wider_by, 0.0) << "joint 2 was measured within 60 deg";
+  EXPECT_TRUE(arm.widened_by({{0, 0, 0}}).empty());
+  ASSERT_EQ(arm.widened_by({{0, 120, 0}}).size(), 1U);
+  EXPECT_TRUE(arm.widened_by({{0, 120, 0}})[0].starts_with("joint 2 at 120 deg, measured -"));
   EXPECT_LT(arm.error95_mm({{0, 0, 0}}), 0.2) << "1 mm would hold everything";
 }
 

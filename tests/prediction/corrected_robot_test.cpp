@@ -161,7 +161,7 @@ TEST(CorrectedCommand, OfFewerThanSixJointsPutsThePositionFirst) {
   }
 }
 
-TEST(NominalRobot, KnowsWhichPayloadsItIsToBeCalibratedWith) {
+TEST(NominalRobot, KnowsWhichPayloadsAndTemperaturesItIsToBeCalibratedWith) {
   DataSet data;
   data.robot.chain = wrist_arm();
   data.poses.resize(3);
@@ -169,6 +169,10 @@ TEST(NominalRobot, KnowsWhichPayloadsItIsToBeCalibratedWith) {
   data.poses[1].payload_kg = 4.0;
   data.poses[2].payload_kg = 1.5;
   EXPECT_EQ(nominal_robot(data).payloads_kg, (Interval{1.5, 4.0}));
+  EXPECT_FALSE(nominal_robot(data).temperatures_celsius);
+  data.poses[0].temperature_celsius = 24.0;
+  data.poses[2].temperature_celsius = 19.5;
+  EXPECT_EQ(nominal_robot(data).temperatures_celsius, (Interval{19.5, 24.0}));
 }
 
 }  // namespace

@@ -88,12 +88,13 @@ CommandModel weighed_model() {
   return model;
 }
 
-CorrectedProgram carried_by(const CommandModel& model, std::optional<double> payload_kg) {
+CorrectedProgram carried_by(const CommandModel& model, std::optional<double> payload_kg,
+                            std::optional<double> temperature_celsius = {}) {
   JointVector joints(6);
   joints << 0.3, -0.4, 0.6, 0.2, 0.9, -0.4;
   const std::string text = joints_line(WrittenIn::urscript, joints, 1, 9);
   return correct_program(text, read_program(WrittenIn::urscript, text, "p.script", model.nominal.chain), model,
-                         {.payload_kg = payload_kg});
+                         {.payload_kg = payload_kg, .temperature_celsius = temperature_celsius});
 }
 
 TEST(UnstatedPayload, IsInTheRadiusAsFarAsTheArmWasMeasuredWith) {
@@ -101,7 +102,7 @@ TEST(UnstatedPayload, IsInTheRadiusAsFarAsTheArmWasMeasuredWith) {
   const CorrectedTarget untold = carried_by(model, {}).targets[0], empty = carried_by(model, 0.0).targets[0];
   ASSERT_EQ(untold.outcome, CorrectionOutcome::corrected);
   EXPECT_EQ(untold.command, empty.command);
-  Stop carrying = empty.stop.with_joints(empty.command);
+  Stop carrying = empty.stop;
   const Eigen::Vector3d bare_m = model.robot.predict(carrying, "").translation();
   carrying.payload_kg = 5.0;
   const double given_by_m = (model.robot.predict(carrying, "").translation() - bare_m).norm();
@@ -115,11 +116,62 @@ TEST(Payload, BeyondWhatWasMeasuredWidensTheRadiusAndIsSaid) {
   EXPECT_GT(*beyond.targets[0].error95_m, 5.0 * *within.targets[0].error95_m);
   const auto says = [](const CorrectedProgram& program) {
     return std::ranges::any_of(program.warnings, [](const Remark& one) {
-      return one.sentence.starts_with("the payload of 20 kg is more than the 5 kg that the arm was measured with");
+      return one.sentence.starts_with("the payload of 20 kg is outside the 0 .. 5 kg that the arm was measured with");
     });
   };
   EXPECT_FALSE(says(within));
   EXPECT_TRUE(says(beyond));
+}
+
+/// The same arm, whose joint 3 moves with warmth, measured at 20 to 25 degrees.
+CommandModel warmed_model() {
+  CommandModel model = weighed_model();
+  model.robot.effects.push_back({.kind = "thermal_offset",
+                                 .joint = 2,
+                                 .settings = {{"reference_celsius", 22.0}},
+                                 .form = {},
+                                 .formula = {},
+                                 .values = {1e-5}});
+  model.robot.temperatures_celsius = Interval{20.0, 25.0};
+  return model;
+}
+
+TEST(UnstatedTemperature, IsInTheRadiusAsFarAsTheArmWasMeasuredAt) {
+  const CommandModel model = warmed_model();
+  const CorrectedTarget untold = carried_by(model, 0.0).targets[0], at = carried_by(model, 0.0, 22.0).targets[0];
+  Stop warm = at.stop;
+  warm.temperature_celsius = 25.0;
+  const double given_by_m =
+      (model.robot.predict(warm, "").translation() - model.robot.predict(at.stop, "").translation()).norm();
+  EXPECT_GT(given_by_m, 1e-6);
+  EXPECT_NEAR(*untold.error95_m - *at.error95_m, given_by_m, 1e-9);
+  EXPECT_THAT(untold.widened_by, ElementsAre(HasSubstr("temperature not stated, measured 20 .. 25 °C")));
+}
+
+TEST(Temperature, BeyondWhatWasMeasuredWidensTheRadiusAndIsSaid) {
+  const CommandModel model = warmed_model();
+  const CorrectedProgram within = carried_by(model, 0.0, 25.0), beyond = carried_by(model, 0.0, 40.0);
+  EXPECT_GT(*beyond.targets[0].error95_m, 3.0 * *within.targets[0].error95_m);
+  EXPECT_THAT(beyond.targets[0].widened_by, ElementsAre("temperature at 40 °C, measured 20 .. 25 °C"));
+  const auto says = [](const CorrectedProgram& program) {
+    return std::ranges::any_of(program.warnings, [](const Remark& one) {
+      return one.sentence.starts_with("the temperature of 40 °C is outside the 20 .. 25 °C that the arm was measured");
+    });
+  };
+  EXPECT_FALSE(says(within));
+  EXPECT_TRUE(says(beyond));
+}
+
+TEST(PathRemark, StandsAmongTheWarningsOfAProgram) {
+  CommandModel model = weighed_model();
+  const auto says = [&] {
+    return std::ranges::any_of(carried_by(model, 0.0).warnings, [](const Remark& one) {
+      return one.sentence.find("follow each other along a path") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(says());
+  model.interval->along_path = true;
+  EXPECT_TRUE(says());
 }
 
 }  // namespace

@@ -114,6 +114,13 @@ TEST(Terminal, ShowsOneStageWithItsSets) {
   EXPECT_THAT(text, Not(HasSubstr("accept")));
 }
 
+TEST(Terminal, SaysOfAnEvaluationWhyRadiiAreWider) {
+  Evaluation evaluation{made_up_report().after, {}, {}, {}, {}};
+  EXPECT_THAT(to_terminal(evaluation), Not(HasSubstr("NOTE")));
+  evaluation.widened_by = {"1 of the 9 measurements lie outside: payload at 20 kg, measured 0 .. 5 kg."};
+  EXPECT_THAT(to_terminal(evaluation), HasSubstr("NOTE: 1 of the 9 measurements lie outside: payload at 20 kg"));
+}
+
 TEST(Terminal, SaysOfPosesThatTouchHowFarOffTheToolMayBeAnywhere) {
   const ErrorBySet errors = made_up_report().after;
   Evaluation evaluation{errors, {}, {}, {}, {}};

@@ -1,0 +1,103 @@
+// How much larger radii are taken to be outside of what was measured: joints, payload and temperature, and the words.
+#include "parameters/widening.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "kinematics/random_arm.hpp"
+#include "random/random_stream.hpp"
+
+namespace demecal {
+namespace {
+
+using ::testing::ElementsAre, ::testing::IsEmpty;
+
+/// Compliant in joint 2 and warm in joint 3, measured with 1 to 5 kg at 20 to 24 degrees.
+struct MeasuredArm {
+  CorrectedRobot robot;
+  std::vector<Interval> ranges;
+  std::map<int, std::vector<Interval>> gaps{};
+  Stop inside{JointVector::Constant(6, 0.3)};
+
+  MeasuredArm() {
+    DataSet data;
+    data.robot.chain = wrist_arm();
+    robot = nominal_robot(data);
+    robot.effects = {
+        {.kind = "compliance", .joint = 1, .settings = {}, .form = "payload", .formula = {}, .values = {1e-5}},
+        {.kind = "thermal_offset",
+         .joint = 2,
+         .settings = {{"reference_celsius", 22.0}},
+         .form = {},
+         .formula = {},
+         .values = {1e-5}}};
+    robot.payloads_kg = Interval{1.0, 5.0};
+    robot.temperatures_celsius = Interval{20.0, 24.0};
+    ranges.assign(6, Interval{-1.0, 1.0});
+    inside.payload_kg = 2.0;
+    inside.temperature_celsius = 21.0;
+  }
+
+  Widening at(const Stop& stop) const { return widening(robot, {ranges, gaps}, stop); }
+};
+
+TEST(Widening, IsNoneWhereEverythingWasMeasured) {
+  const MeasuredArm arm;
+  EXPECT_EQ(arm.at(arm.inside).factor, 1.0);
+  EXPECT_EQ(arm.at(arm.inside).unstated_m, 0.0);
+  EXPECT_THAT(arm.at(arm.inside).reasons, IsEmpty());
+  Stop turned = arm.inside;
+  turned.joints[3] += 4.0 * std::acos(-1.0);
+  EXPECT_NEAR(arm.at(turned).factor, 1.0, 1e-9) << "whole turns aside";
+}
+
+TEST(Widening, GrowsWithTheWayOutsideInSharesOfTheRangeAndSaysWhere) {
+  MeasuredArm arm;
+  Stop joint = arm.inside, heavy = arm.inside, empty = arm.inside, hot = arm.inside, cold = arm.inside;
+  joint.joints[1] = 1.5;
+  heavy.payload_kg = 7.0;
+  empty.payload_kg = 0.0;
+  hot.temperature_celsius = 34.0;
+  cold.temperature_celsius = 15.0;
+  EXPECT_NEAR(arm.at(joint).factor, 1.0 + 2.0 * 0.5 / 2.0, 1e-12);
+  EXPECT_NEAR(arm.at(heavy).factor, 1.0 + 2.0 * 2.0 / 4.0, 1e-12);
+  EXPECT_NEAR(arm.at(empty).factor, 1.0 + 2.0 * 1.0 / 4.0, 1e-12);
+  EXPECT_NEAR(arm.at(hot).factor, 1.0 + 2.0 * 10.0 / 10.0, 1e-12);
+  EXPECT_NEAR(arm.at(cold).factor, 1.0 + 2.0 * 5.0 / 10.0, 1e-12);
+  EXPECT_THAT(arm.at(joint).sentences(), ElementsAre("joint 2 at 85.9 deg, measured -57.3 .. 57.3 deg"));
+  EXPECT_THAT(arm.at(heavy).sentences(), ElementsAre("payload at 7 kg, measured 1 .. 5 kg"));
+  EXPECT_THAT(arm.at(hot).sentences(), ElementsAre("temperature at 34 °C, measured 20 .. 24 °C"));
+  heavy.joints[1] = 1.5;
+  EXPECT_NEAR(arm.at(heavy).factor, 1.0 + 0.5 + 1.0, 1e-12) << "they add up";
+  arm.gaps = {{1, {{0.0, 0.8}}}};
+  EXPECT_NEAR(arm.at(arm.inside).factor, 1.0 + 2.0 * 0.3 / 2.0, 1e-12);
+  EXPECT_THAT(arm.at(arm.inside).sentences(), ElementsAre("joint 2 at 17.2 deg, measured nowhere in 0 .. 45.8 deg"));
+}
+
+TEST(Widening, HoldsWhateverWasMeasuredOfWhatIsNotStated) {
+  const MeasuredArm arm;
+  const auto tool_m = [&](const Stop& stop) -> Eigen::Vector3d { return arm.robot.predict(stop, "").translation(); };
+  Stop unstated = arm.inside, other = arm.inside;
+  unstated.payload_kg = 0.0;
+  unstated.payload_stated = false;
+  other.payload_kg = 5.0;
+  const double payload_m = (tool_m(unstated) - tool_m(other)).norm();
+  EXPECT_GT(payload_m, 1e-5);
+  EXPECT_NEAR(arm.at(unstated).unstated_m, payload_m, 1e-12);
+  EXPECT_EQ(arm.at(unstated).factor, 1.0);
+  ASSERT_EQ(arm.at(unstated).reasons.size(), 1u);
+  EXPECT_EQ(arm.at(unstated).reasons[0].subject, "payload");
+  Stop without = arm.inside, warm = arm.inside;
+  without.temperature_celsius.reset();
+  warm.temperature_celsius = 24.0;
+  const double warmth_m = (tool_m(without) - tool_m(warm)).norm();
+  EXPECT_GT(warmth_m, 1e-6);
+  EXPECT_NEAR(arm.at(without).unstated_m, warmth_m, 1e-9);
+  MeasuredArm rigid;
+  rigid.robot.effects.clear();
+  EXPECT_EQ(rigid.at(unstated).unstated_m, 0.0) << "nothing depends on it";
+  EXPECT_THAT(rigid.at(unstated).reasons, IsEmpty());
+}
+
+}  // namespace
+}  // namespace demecal
