@@ -7,17 +7,16 @@
 #include <memory>
 #include <optional>
 #include <ranges>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "data/contacts.hpp"
-#include "data/csv.hpp"
 #include "data/data_set.hpp"
 #include "data_files/data_set_file.hpp"
 #include "data_files/robot_file.hpp"
+#include "drafting/instrument_file.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -54,11 +53,16 @@ PointFile read_points(const YamlNode& node, const Robot& robot) {
   });
 }
 
-Readings read_readings_at(const YamlNode& node, const std::optional<CordInstrument>& cords) {
-  return read_named(node, [&](const std::filesystem::path& path) {
-    std::istringstream text(with_marked_names(read_file(path), path.string()));
-    return read_readings(read_csv(text, path.string()), cords);
-  });
+/// What is read of the files that a preparation names.
+struct ReadingFiles {
+  const Robot& robot;
+  std::optional<CordInstrument> cords;
+  std::vector<std::string> assumed{};  ///< a sentence each
+};
+
+Readings read_readings_at(const YamlNode& node, ReadingFiles& files) {
+  return read_named(
+      node, [&](const std::filesystem::path& path) { return read_instrument_file(path, files.cords, files.assumed); });
 }
 
 RobotPoints read_robot_points(const YamlNode& node, const std::string& points, const Robot& robot) {
@@ -69,24 +73,24 @@ RobotPoints read_robot_points(const YamlNode& node, const std::string& points, c
   return robot_points(points_m, node.file);
 }
 
-TaughtPoints read_local_frame(const YamlNode& node, const Robot& robot, const std::optional<CordInstrument>& cords) {
+TaughtPoints read_local_frame(const YamlNode& node, ReadingFiles& files) {
   node.with_keys({"robot", "points", "instrument", "tolerance_mm"});
   const YamlNode* tolerance = node.find("tolerance_mm");
-  return taught_points(read_robot_points(node.at("robot"), text_at(node, "points"), robot),
-                       read_readings_at(node.at("instrument"), cords),
+  return taught_points(read_robot_points(node.at("robot"), text_at(node, "points"), files.robot),
+                       read_readings_at(node.at("instrument"), files),
                        metres(tolerance ? tolerance->positive() : kTolerance_mm));
 }
 
-RawSet read_set(const YamlNode& node, const Robot& robot, const std::optional<CordInstrument>& cords) {
+RawSet read_set(const YamlNode& node, ReadingFiles& files) {
   node.with_keys({"set", "joints", "points", "poses", "pose_points", "readings"});
   RawSet set;
   set.set = node.at("set").one_of<PoseSet>(
       {{"calibration", PoseSet::calibration}, {"validation", PoseSet::validation}, {"accept", PoseSet::accept}});
-  set.joints = read_points(node.at("joints"), robot);
+  set.joints = read_points(node.at("joints"), files.robot);
   set.points = text_at(node, "points");
-  if (const YamlNode* poses = node.find("poses")) set.poses = read_points(*poses, robot);
+  if (const YamlNode* poses = node.find("poses")) set.poses = read_points(*poses, files.robot);
   set.pose_points = text_at(node, "pose_points");
-  set.readings = read_readings_at(node.at("readings"), cords);
+  set.readings = read_readings_at(node.at("readings"), files);
   return set;
 }
 
@@ -160,14 +164,15 @@ RawMeasurements load_preparation(const std::filesystem::path& path) {
   raw.name = root.find("name") ? root.at("name").text() : path.stem().string();
   raw.file = path.string();
   raw.robot = read_named(root.at("robot"), load_robot);
-  const std::optional<CordInstrument> cords = read_instrument(root.at("instrument"));
-  if (const YamlNode* frame = root.find("local_frame")) raw.local_frame = read_local_frame(*frame, raw.robot, cords);
+  ReadingFiles files{raw.robot, read_instrument(root.at("instrument"))};
+  if (const YamlNode* frame = root.find("local_frame")) raw.local_frame = read_local_frame(*frame, files);
   if (const YamlNode* repeats = root.find("repeats")) {
     raw.repeats = repeats->one_of<Repeats>({{"average", Repeats::average}, {"keep", Repeats::keep}});
   }
   const YamlNode& sets = root.at("sets");
   if (sets.list().empty()) sets.fail("", "must name one set of measurements at least");
-  for (const YamlNode& set : sets.children) raw.sets.push_back(read_set(set, raw.robot, cords));
+  for (const YamlNode& set : sets.children) raw.sets.push_back(read_set(set, files));
+  raw.assumed = std::move(files.assumed);
   return raw;
 }
 

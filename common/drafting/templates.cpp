@@ -88,6 +88,10 @@ std::string filled(std::string_view text, std::string_view place, const std::str
   return result;
 }
 
+std::string with_certificate_keys(std::string_view text) {
+  return filled(text, "@CERTIFICATE@", std::string(kCertificateKeys));
+}
+
 std::size_t joints_given(const GivenFiles& given) {
   if (given.robot) return static_cast<std::size_t>(load_robot(*given.robot).chain.size());
   for (const GivenTable& table : read_given_tables(given.tables, 0, {})) {
@@ -121,7 +125,8 @@ std::string data_set_template(const GivenFiles& given, const std::filesystem::pa
   if (given.tables.empty()) {
     std::vector<std::string> names;
     for (std::size_t joint = 1; joint <= joints; ++joint) names.push_back("q" + std::to_string(joint) + "_deg");
-    return filled(filled(kDataSetTemplate, "@ROBOT@", robot_name(given, folder)), "@JOINTS@", yaml_list(names));
+    return filled(filled(with_certificate_keys(kDataSetTemplate), "@ROBOT@", robot_name(given, folder)), "@JOINTS@",
+                  yaml_list(names));
   }
   const std::vector<GivenTable> tables = read_given_tables(given.tables, joints, {});
   const std::string robot =
@@ -159,7 +164,8 @@ std::string template_text(TemplateKind kind, const std::vector<std::filesystem::
     case TemplateKind::dataset:
       return data_set_template(given, folder);
     case TemplateKind::job:
-      return filled(kJobTemplate, "@DATA@", given.data_set ? relative_to(folder, *given.data_set) : "dataset.yaml");
+      return filled(with_certificate_keys(kJobTemplate), "@DATA@",
+                    given.data_set ? relative_to(folder, *given.data_set) : "dataset.yaml");
     case TemplateKind::scenario:
       return filled(kScenarioTemplate, "@ROBOT@", robot_name(given, folder));
     case TemplateKind::preparation:
@@ -169,7 +175,7 @@ std::string template_text(TemplateKind kind, const std::vector<std::filesystem::
 }
 
 std::string first_job_text(const std::string& data_set) {
-  return filled(kJobTemplate, "@DATA@", yaml_text(data_set));
+  return filled(with_certificate_keys(kJobTemplate), "@DATA@", yaml_text(data_set));
 }
 
 namespace {

@@ -10,10 +10,10 @@ namespace demecal::inline drafting {
 
 enum class TemplateKind { robot, dataset, job, scenario, preparation };
 
-/// A file of that kind with every common key, its unit and its default in comments; filled in as far as the files
-/// `given` tell: tables of poses or readings, robot programs, ROBOT.yaml, DATASET.yaml. It can be read as it stands
-/// where the files that it names are there. Paths in it are relative to `folder`. Throws InputError where a given file
-/// is of no use or malformed.
+/// A file of that kind with every key (of scenarios the common ones), its unit and its default in comments; filled in
+/// as far as the files `given` tell: tables of poses or readings, robot programs, ROBOT.yaml, DATASET.yaml. It can be
+/// read as it stands where the files that it names are there. Paths in it are relative to `folder`. Throws InputError
+/// where a given file is of no use or malformed.
 std::string template_text(TemplateKind kind, const std::vector<std::filesystem::path>& given,
                           const std::filesystem::path& folder);
 

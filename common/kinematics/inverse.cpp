@@ -26,13 +26,16 @@ NewtonStep newton_step(const Jacobian& jacobian, const PoseError& error, const I
   Jacobian scaled = jacobian;
   PoseError scaled_error = error;
   scaled.topRows<3>() /= options.length_m;
+  scaled.leftCols(options.held).setZero();
   scaled_error.head<3>() /= options.length_m;
   const SingularSystem svd = singular_system(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const Eigen::VectorXd& values = svd.values;
   const double smallest = values[values.size() - 1];
   const double damping = std::min(std::max(0.0, options.singular_below - smallest), scaled_error.norm());
   const Eigen::VectorXd gains = values.array() / (values.array().square() + damping * damping).max(1e-300);
-  return {svd.v * gains.asDiagonal() * svd.u.transpose() * scaled_error, smallest};
+  NewtonStep step{svd.v * gains.asDiagonal() * svd.u.transpose() * scaled_error, smallest};
+  step.dq.head(options.held).setZero();
+  return step;
 }
 
 bool within_tolerance(const PoseError& error, const InverseOptions& options) {
@@ -103,7 +106,8 @@ double damped_cost(const DampedProblem& problem, const PoseAndJacobian& reached,
 
 JointVector gauss_newton_step(const DampedProblem& problem) {
   const PoseError scales = row_scales(problem.options);
-  const Eigen::MatrixXd jacobian = scales.asDiagonal() * problem.reached.jacobian;
+  Eigen::MatrixXd jacobian = scales.asDiagonal() * problem.reached.jacobian;
+  jacobian.leftCols(problem.options.held).setZero();
   const PoseError error = scales.cwiseProduct(pose_error(problem.reached.pose, problem.target));
   const double damping = problem.options.damping * problem.options.damping;
   Eigen::MatrixXd normal = jacobian.transpose() * jacobian;
@@ -144,10 +148,10 @@ InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& targ
     step = newton_step(iterate.reached.jacobian, iterate.error, options);
   }
   const bool singular = smallest_singular < options.singular_below;
-  const InverseStatus status = within_tolerance(iterate.error, options) ? InverseStatus::converged
-                               : !iterate.error.allFinite()             ? InverseStatus::diverged
-                               : singular || iterate.q.size() < 6       ? InverseStatus::damped
-                                                                        : InverseStatus::diverged;
+  const InverseStatus status = within_tolerance(iterate.error, options)          ? InverseStatus::converged
+                               : !iterate.error.allFinite()                      ? InverseStatus::diverged
+                               : singular || iterate.q.size() - options.held < 6 ? InverseStatus::damped
+                                                                                 : InverseStatus::diverged;
   return {iterate.q, status, smallest_singular, iterate.error.head<3>().norm(), iterate.error.tail<3>().norm()};
 }
 

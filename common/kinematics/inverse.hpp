@@ -25,6 +25,7 @@ struct InverseOptions {
   double length_m = 1.0;         ///< scale between metres and radians in singular values
   double singular_below = 0.02;  ///< smallest singular value under which steps are damped
   int max_iterations = 50;
+  int held = 0;  ///< so many joints, from the base on, stay where the start has them
 };
 
 enum class InverseStatus {
@@ -56,6 +57,7 @@ struct DampingOptions {
   double length_m = 0.01;  ///< position error that counts as much as 1 rad: position comes first
   double damping = 0.02;   ///< orientation error, rad, that is accepted rather than move joints by 1 rad (or m)
   int max_iterations = 30;
+  int held = 0;  ///< as InverseOptions::held
 };
 
 /// The joints q that minimise |position error / length|^2 + |orientation error|^2 + |damping (q - start)|^2 (damped

@@ -1,4 +1,5 @@
-// KUKA KRL: AXIS, E6AXIS, POS and E6POS, declared or in motion commands; neither frames nor relative motions.
+// KUKA KRL: AXIS, E6AXIS, POS and E6POS, declared or in motion commands; neither frames nor relative motions. E1 and
+// those behind it are the rails that carry the arm, as many as it has.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -56,9 +57,10 @@ struct Component {
 class KrlReader {
  public:
   explicit KrlReader(const ReaderInput& input)
-      : text_(input.source, {.comment = ';', .line = '&'}), arm_(input.arm), controller_(input.controller) {
-    require_six_joints(input.arm, input.source.file(), "KRL");
-  }
+      : text_(input.source, {.comment = ';', .line = '&'}),
+        arm_(input.arm),
+        controller_(input.controller),
+        rails_(rails_of(input.arm, input.source.file(), "KRL")) {}
 
   Program read() {
     const std::string_view code = text_.code();
@@ -168,20 +170,38 @@ class KrlReader {
     const std::vector<BracketItem> axes = values(components, kAxisComponents), parts = values(components, kPoseParts);
     const bool stated = find(components, "s") != nullptr || find(components, "t") != nullptr;
     if (axes.size() == kAxisComponents.size()) {
-      axis_target(target, axes, numbers);
+      if (take_rails(target, components, numbers)) axis_target(target, axes, numbers);
     } else if (!axes.empty() && (context.axis || context.motion)) {
       skip_target(program_, target, "it names only some of A1 to A6");
     } else if (context.frame || !(context.pose || context.motion || stated)) {
       return;
     } else if (parts.size() == kPoseParts.size()) {
-      pose_target(target, parts, components, numbers);
+      if (take_rails(target, components, numbers)) pose_target(target, parts, components, numbers);
     } else if (!parts.empty()) {
       skip_target(program_, target, "it names only some of X, Y, Z, A, B and C");
     }
   }
 
+  /// Where the rails stand; false, and a remark, where that is not told.
+  bool take_rails(Target& target, const std::vector<Component>& components, Numbers numbers) {
+    const std::vector<CellUnit> units = joint_units(arm_);
+    for (int rail = 0; rail < rails_; ++rail) {
+      const std::string name = "E" + std::to_string(rail + 1);
+      const Component* part = find(components, lower_case(name));
+      if (part == nullptr) {
+        skip_target(program_, target, "it does not name " + name + ", where the rail that carries the arm is to stand");
+        return false;
+      }
+      const auto cells =
+          cells_of(text_, {&part->value, 1}, {&units[static_cast<std::size_t>(rail)], 1}, numbers, program_, target);
+      if (!cells) return false;
+      target.carried.push_back(cells->front());
+    }
+    return true;
+  }
+
   void axis_target(Target& target, const std::vector<BracketItem>& axes, Numbers numbers) {
-    const auto cells = cells_of(text_, axes, joint_units(arm_), numbers, program_, target);
+    const auto cells = cells_of(text_, axes, joint_units(arm_, rails_), numbers, program_, target);
     if (!cells) return;
     target.joints = *cells;
     program_.targets.push_back(std::move(target));
@@ -201,10 +221,11 @@ class KrlReader {
     program_.targets.push_back(std::move(target));
   }
 
-  /// What external axes say of where the arm stands; empty where none has moved.
+  /// What external axes behind the rails say of where the arm stands; empty where none has moved.
   std::string carried_by(const std::vector<Component>& components) const {
     for (const Component& part : components) {
       if (part.name.size() != 2 || part.name.front() != 'e' || !is_digit(part.name.back())) continue;
+      if (part.name.back() - '0' <= rails_ && part.name.back() != '0') continue;
       const auto number = cell_at(text_.text(), part.value.begin, part.value.size, {});
       if (number && number->value == 0.0) continue;
       return std::string("an external axis, E") + part.name.back() + ", may carry the arm";
@@ -227,13 +248,15 @@ class KrlReader {
       return {};
     }
     ArmHint hint;
-    for (int joint = 0; joint < arm_.size(); ++joint) hint.negative.emplace_back(((bits >> joint) & 1) != 0);
+    hint.negative.resize(static_cast<std::size_t>(rails_));
+    for (int joint = 0; joint < arm_.size() - rails_; ++joint) hint.negative.emplace_back(((bits >> joint) & 1) != 0);
     return hint;
   }
 
   ProgramText text_;
   const Chain& arm_;
   const ControllerData& controller_;
+  int rails_;
   Program program_;
 };
 

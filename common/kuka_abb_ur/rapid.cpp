@@ -1,4 +1,5 @@
-// ABB RAPID: robtarget and jointtarget, declared (arrays too) or in motion commands.
+// ABB RAPID: robtarget and jointtarget, declared (arrays too) or in motion commands. The first of their external axes
+// are the rails that carry the arm, as many as it has.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -25,6 +26,11 @@ namespace {
 
 constexpr std::array<std::size_t, 4> kRobtarget{3, 4, 4, 6};
 constexpr std::array<std::size_t, 2> kJointtarget{6, 6};
+constexpr double kNoAxis = 9e9;
+
+std::string axis_named(std::size_t axis) {
+  return std::string("eax_") + static_cast<char>('a' + axis);
+}
 
 /// Whether the item is a list of lists of these sizes, of nothing deeper.
 bool has_shape(const BracketItem& item, std::span<const std::size_t> sizes) {
@@ -42,8 +48,10 @@ bool has_shape(const BracketItem& item, std::span<const std::size_t> sizes) {
 class RapidReader {
  public:
   explicit RapidReader(const ReaderInput& input)
-      : text_(input.source, {.comment = '!'}), arm_(input.arm), controller_(input.controller) {
-    require_six_joints(input.arm, input.source.file(), "RAPID");
+      : text_(input.source, {.comment = '!'}),
+        arm_(input.arm),
+        controller_(input.controller),
+        rails_(static_cast<std::size_t>(rails_of(input.arm, input.source.file(), "RAPID"))) {
     text_.for_each_word([&](std::size_t begin, std::size_t /*end*/) {
       const std::string word = text_.word_at(begin);
       offsets_axes_ = offsets_axes_ || word == "eoffson" || word == "eoffsset";
@@ -142,6 +150,7 @@ class RapidReader {
     constexpr std::array<CellUnit, 4> kQuaternion{kPart, kPart, kPart, kPart};
     constexpr std::array<CellUnit, 4> kConfiguration{};
     Target target{.name = name, .place = text_.place(item.begin)};
+    if (!take_rails(target, item.items[3], numbers)) return;
     const auto position = cells_of(text_, item.items[0].items, kPosition, numbers, program_, target);
     if (!position) return;
     const auto orientation = cells_of(text_, item.items[1].items, kQuaternion, numbers, program_, target);
@@ -161,7 +170,7 @@ class RapidReader {
   ArmHint quadrants(const std::vector<Cell>& configuration) const {
     ArmHint hint;
     hint.quadrants.resize(arm_.joints.size());
-    const std::array<std::size_t, 3> joints{0, 3, 5};
+    const std::array<std::size_t, 3> joints{rails_, rails_ + 3, rails_ + 5};
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const double quadrant = configuration[i].value;
       if (!is_revolute(arm_.joints[joints[i]]) || !(quadrant >= -100.0 && quadrant <= 100.0)) continue;
@@ -170,13 +179,31 @@ class RapidReader {
     return hint;
   }
 
-  /// What external axes say of where the arm stands; empty where there are none (9E9), or none has moved.
+  /// Where the rails stand; false, and a remark, where that is not told.
+  bool take_rails(Target& target, const BracketItem& axes, Numbers numbers) {
+    const std::vector<CellUnit> units = joint_units(arm_);
+    for (std::size_t rail = 0; rail < rails_; ++rail) {
+      const auto cells = cells_of(text_, {&axes.items[rail], 1}, {&units[rail], 1}, numbers, program_, target);
+      if (!cells) return false;
+      const std::string where = ", where the rail that carries the arm is to stand";
+      if (offsets_axes_ || cells->front().value == kNoAxis) {
+        skip_target(program_, target,
+                    offsets_axes_ ? "EOffsOn or EOffsSet moves " + axis_named(rail) + where
+                                  : "its " + axis_named(rail) + where + ", is 9E9, which tells none");
+        return false;
+      }
+      target.carried.push_back(cells->front());
+    }
+    return true;
+  }
+
+  /// What external axes behind the rails say of where the arm stands; empty where there are none (9E9), or none has
+  /// moved.
   std::string carried_by(const BracketItem& axes) const {
-    constexpr double kNoAxis = 9e9;
-    for (std::size_t i = 0; i < axes.items.size(); ++i) {
+    for (std::size_t i = rails_; i < axes.items.size(); ++i) {
       const auto cell = cell_at(text_.text(), axes.items[i].begin, axes.items[i].size, {});
       if (cell && (cell->value == kNoAxis || (cell->value == 0.0 && !offsets_axes_))) continue;
-      return std::string("an external axis, eax_") + static_cast<char>('a' + i) + ", may carry the arm" +
+      return "an external axis, " + axis_named(i) + ", may carry the arm" +
              (cell && cell->value == 0.0 ? " (EOffsOn or EOffsSet moves it)" : "");
     }
     return "";
@@ -184,7 +211,9 @@ class RapidReader {
 
   void jointtarget(const BracketItem& item, const std::string& name, Numbers numbers) {
     Target target{.name = name, .place = text_.place(item.begin)};
-    const auto joints = cells_of(text_, item.items[0].items, joint_units(arm_), numbers, program_, target);
+    if (!take_rails(target, item.items[1], numbers)) return;
+    const auto joints =
+        cells_of(text_, item.items[0].items, joint_units(arm_, static_cast<int>(rails_)), numbers, program_, target);
     if (!joints) return;
     target.joints = *joints;
     program_.targets.push_back(std::move(target));
@@ -193,6 +222,7 @@ class RapidReader {
   ProgramText text_;
   const Chain& arm_;
   const ControllerData& controller_;
+  std::size_t rails_;
   Program program_;
   bool offsets_axes_ = false;  ///< by EOffsOn or EOffsSet
 };

@@ -1,6 +1,6 @@
 // FANUC TP programs as .LS listings: the positions of the section /POS, of joints (J1 to J6) or Cartesian (X, Y, Z and
 // W, P, R: turns about x, y, z that stay), each with the numbers of its user frame (UF) and tool (UT). Groups of motion
-// after the first and external axes (E1, ...) are kept.
+// after the first are kept, and so are external axes (E1, ...), of which the first are the rails that carry the arm.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -40,9 +40,8 @@ class FanucReader {
         instructions_(input.source, {.strings = false}),
         code_(text_.code()),
         arm_(input.arm),
-        controller_(input.controller) {
-    require_six_joints(input.arm, input.source.file(), "FANUC's TP");
-  }
+        controller_(input.controller),
+        rails_(rails_of(input.arm, input.source.file(), "FANUC's TP")) {}
 
   Program read() {
     const std::size_t instructions = fanuc_section(text_, "/mn"), positions = fanuc_section(text_, "/pos");
@@ -137,6 +136,7 @@ class FanucReader {
     if (!has_units(components, of_joints)) {
       return skip_target(program_, target, "its numbers are not in mm and deg, in which the arm's are");
     }
+    if (!take_rails(target, components)) return;
     of_joints ? joint_target(target, joints) : pose_target(target, parts, components);
     if (target.joints.empty() && target.position.empty()) return;
     motions_.complete(number, target);
@@ -153,7 +153,7 @@ class FanucReader {
       return found != components.end() && found->second.unit == unit;
     };
     for (std::size_t i = 0; i < kJointNames.size(); ++i) {
-      const bool angle = of_joints ? is_revolute(arm_, static_cast<int>(i)) : i >= 3;
+      const bool angle = of_joints ? is_revolute(arm_, rails_ + static_cast<int>(i)) : i >= 3;
       if (!has(of_joints ? kJointNames[i] : kPoseNames[i], angle ? "deg" : "mm")) return false;
     }
     return true;
@@ -168,8 +168,25 @@ class FanucReader {
     return found;
   }
 
+  /// Where the rails stand; false, and a remark, where that is not told in mm.
+  bool take_rails(Target& target, const FanucParts& components) {
+    for (int rail = 0; rail < rails_; ++rail) {
+      const std::string name = "e" + std::to_string(rail + 1);
+      const auto part = components.find(name);
+      if (part == components.end() || part->second.unit != "mm" || is_untaught(part->second.value)) {
+        skip_target(program_, target,
+                    "it does not state E" + std::to_string(rail + 1) +
+                        " in mm, where the rail that carries the arm is to stand");
+        return false;
+      }
+      const BracketItem& value = part->second.value;
+      target.carried.push_back(text_.number(value.begin, value.size, kMillimetres));
+    }
+    return true;
+  }
+
   void joint_target(Target& target, const std::vector<BracketItem>& joints) {
-    if (const auto cells = cells_of(text_, joints, joint_units(arm_), Numbers::required, program_, target))
+    if (const auto cells = cells_of(text_, joints, joint_units(arm_, rails_), Numbers::required, program_, target))
       target.joints = *cells;
   }
 
@@ -186,8 +203,10 @@ class FanucReader {
       const BracketItem& value = words->second.value;
       target.hint.configuration = text_.text().substr(value.begin, value.size);
       std::erase_if(target.hint.configuration, [](char letter) { return letter == ' ' || letter == '\t'; });
-      target.hint.counted_turns = {0, 3, 5};
+      const auto rails = static_cast<std::size_t>(rails_);
+      target.hint.counted_turns = {rails, rails + 3, rails + 5};
       target.hint.turns = fanuc_turns(target.hint.configuration);
+      if (!target.hint.turns.empty()) target.hint.turns.insert(target.hint.turns.begin(), rails, std::nullopt);
     }
   }
 
@@ -212,7 +231,7 @@ class FanucReader {
     if (!tool.empty()) set_tool(target.frames, known("UT", tool));
     for (const auto& [name, component] : components) {
       const bool external = name.size() == 2 && name.front() == 'e' && is_digit(name.back());
-      if (!external || component.unit != "mm") continue;
+      if (!external || component.unit != "mm" || (name.back() - '0' <= rails_ && name.back() != '0')) continue;
       const auto cell = cell_at(text_.text(), component.value.begin, component.value.size, {});
       if (cell && cell->value == 0.0) continue;
       target.frames.unknown_frame = "an external axis that slides, " + name + ", may carry the arm";
@@ -225,6 +244,7 @@ class FanucReader {
   std::string_view code_;
   const Chain& arm_;
   const ControllerData& controller_;
+  int rails_;
   Program program_;
   FanucMotions motions_;
   ChangedNames changes_{text_};

@@ -33,6 +33,15 @@ std::vector<double> inside(const std::vector<Cell>& cells) {
   return values;
 }
 
+JointVector stated_joints(const Target& target) {
+  JointVector joints(std::ssize(target.carried) + std::ssize(target.joints));
+  Eigen::Index joint = 0;
+  for (const std::vector<Cell>* const cells : {&target.carried, &target.joints}) {
+    for (const Cell& cell : *cells) joints[joint++] = cell.inside();
+  }
+  return joints;
+}
+
 Eigen::Matrix3d tool_axes(const Target& target) {
   if (!target.frames.tool) return Eigen::Matrix3d::Identity();
   return target.frames.tool->linear();
@@ -76,10 +85,10 @@ ApproachSigns approach_of(const Target& target, const ApproachSigns& motions) {
   return signs;
 }
 
-std::vector<CellUnit> joint_units(const Chain& arm) {
+std::vector<CellUnit> joint_units(const Chain& arm, int first) {
   std::vector<CellUnit> units;
-  for (const Joint& joint : arm.joints) {
-    units.push_back(!is_revolute(joint) ? kMillimetres : CellUnit{std::numbers::pi / 180.0, kDecimalsDeg});
+  for (int joint = first; joint < arm.size(); ++joint) {
+    units.push_back(!is_revolute(arm, joint) ? kMillimetres : CellUnit{std::numbers::pi / 180.0, kDecimalsDeg});
   }
   return units;
 }
@@ -181,6 +190,17 @@ void require_six_joints(const Chain& arm, const std::string& file, const std::st
   throw InputError(
       {file, 0}, "",
       "is a program in " + language + ", whose arms have 6 joints; the model's has " + std::to_string(arm.size()));
+}
+
+int rails_of(const Chain& arm, const std::string& file, const std::string& language) {
+  constexpr int kSix = 6;
+  int rails = 0;
+  while (rails < arm.size() - kSix && !is_revolute(arm, rails)) ++rails;
+  if (arm.size() - rails == kSix) return rails;
+  throw InputError({file, 0}, "",
+                   "is a program in " + language +
+                       ", whose arms have 6 joints, and rails that carry them before those; the model's has " +
+                       std::to_string(arm.size()) + " joints, of which the first " + std::to_string(rails) + " slide");
 }
 
 namespace {

@@ -76,10 +76,13 @@ struct NearPlace {
 struct Target {
   std::string name{};  ///< as the file has it; empty: it has none
   TextPlace place{};
-  std::vector<Cell> joints{};    ///< one per joint (rad or m inside), or none
+  std::vector<Cell> joints{};    ///< one per joint (rad or m inside) behind those of `carried`, or none
   std::vector<Cell> position{};  ///< x, y, z of the tool point in the frame stated, or none
   OrientationForm form = OrientationForm::unknown;
   std::vector<Cell> orientation{};
+  /// Where the rails that carry the arm stand: the model's first joints, which stay as they are. Poses are counted from
+  /// where the rails are, and do not move along.
+  std::vector<Cell> carried{};
   ArmHint hint{};
   Motion motion = Motion::joints;
   std::size_t order = 0;                            ///< targets are visited by this, then in the order of the text
@@ -94,6 +97,8 @@ struct Target {
   std::optional<double> payload_kg{}, temperature_celsius{}, time_s{};
 
   bool is_pose() const { return joints.empty(); }
+  /// So many joints, from the base on, stay as they are.
+  int held() const { return static_cast<int>(carried.size()); }
   /// The first byte of its numbers.
   std::size_t begin() const { return (is_pose() ? position : joints).front().begin; }
 };
@@ -158,12 +163,14 @@ Eigen::Matrix3d tool_axes(const Target& target);
 ApproachSigns approach_of(const Target& target, const ApproachSigns& motions);
 /// The values of the cells, in SI units or rad.
 std::vector<double> inside(const std::vector<Cell>& cells);
+/// Of all joints, of a target that states them.
+JointVector stated_joints(const Target& target);
 
 // What readers are made of
 
 inline constexpr CellUnit kMillimetres{1e-3, kDecimalsMm};
-/// The units of the arm's joints in files that count in degrees and mm.
-std::vector<CellUnit> joint_units(const Chain& arm);
+/// The units of the arm's joints in files that count in degrees and mm, from joint `first` (from 0) on.
+std::vector<CellUnit> joint_units(const Chain& arm, int first = 0);
 
 /// A frame in a program: its pose, or why it has none that can be known.
 struct KnownFrame {
@@ -228,6 +235,10 @@ void require_quaternion(const ProgramText& text, std::span<const Cell> cells);
 
 /// Throws InputError unless the arm has the six joints that this language's targets have.
 void require_six_joints(const Chain& arm, const std::string& file, const std::string& language);
+
+/// How many rails carry the arm: joints that slide, before the six that this language's targets have. Throws InputError
+/// unless it has six behind them.
+int rails_of(const Chain& arm, const std::string& file, const std::string& language);
 
 struct ControllerData {
   std::map<std::string, Eigen::Isometry3d> frames{};  ///< base from frame, by number or name in small letters

@@ -199,7 +199,7 @@ InverseSolution command_reaching(const CorrectedRobot& robot, const Eigen::Isome
   if (converged && (exact.q - start.joints).cwiseAbs().maxCoeff() <= kLargestCorrection) return exact;
 
   InverseSolution nearest = exact;
-  nearest.q = damped_least_squares(model, goal, start.joints);
+  nearest.q = damped_least_squares(model, goal, start.joints, {.held = options.held});
   const PoseError left = pose_error(robot.predict(start.with_joints(nearest.q), own_tool), goal);
   nearest.position_residual_m = left.head<3>().norm();
   nearest.orientation_residual_rad = left.tail<3>().norm();

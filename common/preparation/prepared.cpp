@@ -51,10 +51,7 @@ std::optional<PosesByKey> poses_beside(const Program& program, const std::vector
 
 MeasuredPose commanded(const Target& target, const RawSet& set) {
   MeasuredPose pose;
-  pose.joints.resize(static_cast<Eigen::Index>(target.joints.size()));
-  for (Eigen::Index i = 0; i < pose.joints.size(); ++i) {
-    pose.joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
-  }
+  pose.joints = stated_joints(target);
   if (target.approach && !target.approach->hasNaN()) pose.approach = target.approach;  // of all joints or none
   pose.payload_kg = target.payload_kg;
   pose.temperature_celsius = target.temperature_celsius;

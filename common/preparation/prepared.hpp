@@ -41,7 +41,8 @@ struct RawMeasurements {
   Robot robot;
   std::optional<TaughtPoints> local_frame;
   Repeats repeats = Repeats::average;
-  std::vector<RawSet> sets;  ///< one at least
+  std::vector<RawSet> sets;            ///< one at least
+  std::vector<std::string> assumed{};  ///< of how tables are written; a sentence each
 };
 
 /// Where the programmed poses of a set stand, if it has any: a file of their own, or beside the joints.

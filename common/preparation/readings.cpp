@@ -46,8 +46,8 @@ constexpr std::array<ReadingColumns, 3> kReadingColumns{{{ReadingKind::counts, {
                                                          {ReadingKind::points, {"x_mm", "y_mm", "z_mm"}}}};
 constexpr std::array<const char*, 3> kPoseColumns{"pose", "pose_id", "point"};
 
-/// The kind of readings whose columns the table has.
-const ReadingColumns& kind_of(const CsvTable& table) {
+/// The kind of readings whose columns the table has; `other` are none of these.
+const ReadingColumns& kind_of(const CsvTable& table, const PointColumns& other) {
   const ReadingColumns* found = nullptr;
   for (const ReadingColumns& kind : kReadingColumns) {
     for (const char* name : kind.names) {
@@ -61,20 +61,25 @@ const ReadingColumns& kind_of(const CsvTable& table) {
     }
   }
   if (found != nullptr) return *found;
+  if (!other.position.empty()) return kReadingColumns.back();
   throw InputError({table.file, table.header_line}, "",
                    "the header has none of the columns of readings: a_counts, b_counts, c_counts; a_mm, b_mm, c_mm; "
-                   "or x_mm, y_mm, z_mm");
+                   "or x_mm, y_mm, z_mm (or x, y, z with a unit)");
 }
 
 class ReadingTable {
  public:
-  ReadingTable(const CsvTable& table, const std::optional<CordInstrument>& cords)
-      : table_(table), cords_(cords), kind_(kind_of(table)) {
+  ReadingTable(const CsvTable& table, const std::optional<CordInstrument>& cords, const PointColumns& other)
+      : table_(table), cords_(cords), kind_(kind_of(table, other)), by_others_(!has_columns_of_readings(table)) {
     const InputError::Where header{table.file, table.header_line};
-    for (const char* name : kind_.names) columns_.emplace_back(table, ColumnName{name, header});
+    for (std::size_t i = 0; i < kind_.names.size(); ++i) {
+      by_others_ ? columns_.emplace_back(table, other.position[i], Quantity::length, other.units)
+                 : columns_.emplace_back(table, ColumnName{kind_.names[i], header});
+    }
     for (const char* name : kPoseColumns) {
       if (!pose_ && table.find(name)) pose_.emplace(table, ColumnName{name, header});
     }
+    if (!pose_ && other.pose) pose_.emplace(table, *other.pose);
     if (kind_.kind == ReadingKind::points) return;
     if (!cords_) {
       throw InputError(header, kind_.names[0], "is of a cord, but the preparation file describes no instrument.cords");
@@ -101,7 +106,7 @@ class ReadingTable {
     Eigen::Vector3d values;
     for (Eigen::Index i = 0; i < 3; ++i) values[i] = columns_[static_cast<std::size_t>(i)].number(row);
     if (kind_.kind == ReadingKind::points) {
-      reading.point_m = metres(1.0) * values;
+      reading.point_m = by_others_ ? values : Eigen::Vector3d(metres(1.0) * values);
     } else {
       trilaterate_row(row, values, reading);
     }
@@ -141,17 +146,18 @@ class ReadingTable {
   const CsvTable& table_;
   const std::optional<CordInstrument>& cords_;
   const ReadingColumns& kind_;
+  bool by_others_;  ///< columns of points in their own unit
   std::vector<TableColumn> columns_;
   std::optional<TableColumn> pose_;
 };
 
-/// The length of "#name[i]" that a line begins with and a comma follows; 0 where there is none.
+/// The length of "#name[i]" that a line begins with and a separator follows; 0 where there is none.
 std::size_t marked_name(std::string_view line) {
-  const std::size_t comma = line.find(',');
-  if (!line.starts_with('#') || comma == std::string_view::npos) return 0;
-  const std::string_view name = line.substr(0, comma);
+  const std::size_t end = line.find_first_of(",;\t");
+  if (!line.starts_with('#') || end == std::string_view::npos) return 0;
+  const std::string_view name = line.substr(0, end);
   const bool indexed = name.ends_with(']') && name.find('[') > 1 && name.find_first_of(" \t\"") == name.npos;
-  return indexed ? comma : 0;
+  return indexed ? end : 0;
 }
 
 }  // namespace
@@ -187,8 +193,14 @@ Eigen::Matrix3d covariance_of(const CordPoint& point, double cord_m) {
   return cord_m * cord_m * point.derivative * point.derivative.transpose();
 }
 
-Readings read_readings(const CsvTable& table, const std::optional<CordInstrument>& cords) {
-  return ReadingTable(table, cords).read();
+bool has_columns_of_readings(const CsvTable& table) {
+  return std::ranges::any_of(kReadingColumns, [&](const ReadingColumns& kind) {
+    return std::ranges::any_of(kind.names, [&](const char* name) { return table.find(name).has_value(); });
+  });
+}
+
+Readings read_readings(const CsvTable& table, const std::optional<CordInstrument>& cords, const PointColumns& other) {
+  return ReadingTable(table, cords, other).read();
 }
 
 std::optional<double> AveragedReading::spread_m() const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "data/columns.hpp"
 #include "data/csv.hpp"
 
 namespace demecal::inline preparation {
@@ -75,11 +76,22 @@ struct Readings {
   bool named = false;  ///< whether there is a column that says which pose
 };
 
+/// Columns of points that a table of another program has by other names than those of read_readings().
+struct PointColumns {
+  std::vector<ColumnName> position{};  ///< x, y, z, or none
+  std::optional<ColumnName> pose{};
+  AssumedUnits units{};  ///< of a position whose headings state none
+};
+
 /// The readings of a table with one of a_counts, b_counts, c_counts; a_mm, b_mm, c_mm (what the units measured, without
 /// the top cords); or x_mm, y_mm, z_mm; and, where rows are named, a column pose, pose_id or point. `cords` is needed
 /// for the first two. Throws InputError where columns are missing or of two kinds, a cell is no number, a length is not
-/// positive, or cords do not meet.
-Readings read_readings(const CsvTable& table, const std::optional<CordInstrument>& cords);
+/// positive, or cords do not meet. `other`: what is read where columns of these names are missing.
+Readings read_readings(const CsvTable& table, const std::optional<CordInstrument>& cords,
+                       const PointColumns& other = {});
+
+/// Whether the table has one of the columns of read_readings() for what was read.
+bool has_columns_of_readings(const CsvTable& table);
 
 /// Several readings of one pose.
 struct AveragedReading {

@@ -113,10 +113,7 @@ RobotPoints robot_points(const Program& program, const std::string& points, cons
       found.in_base_m[i] = point_in_base(program, found.names[i].target);
       continue;
     }
-    const Target& target = program.targets[found.names[i].target];
-    JointVector joints(robot.chain.size());
-    for (Eigen::Index j = 0; j < joints.size(); ++j) joints[j] = target.joints[static_cast<std::size_t>(j)].inside();
-    found.in_base_m[i] = tool_position(robot.chain, joints);
+    found.in_base_m[i] = tool_position(robot.chain, stated_joints(program.targets[found.names[i].target]));
   }
   return found;
 }

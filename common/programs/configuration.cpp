@@ -22,12 +22,12 @@ double farthest_joint(const JointVector& one, const JointVector& other) {
 
 /// Leaves those that are about as near to `reference` as the nearest, the nearest first. The joints of arms with more
 /// than six are a matter of their controllers: all are left.
-void keep_nearest(std::vector<JointVector>& joints, const JointVector& reference) {
+void keep_nearest(std::vector<JointVector>& joints, const JointVector& reference, int held) {
   constexpr double kFactor = 1.5, kMargin = 0.2;  ///< rad or m
   std::stable_sort(joints.begin(), joints.end(), [&](const JointVector& one, const JointVector& other) {
     return farthest_joint(one, reference) < farthest_joint(other, reference) - 1e-9;
   });
-  if (joints.empty() || reference.size() > 6) return;
+  if (joints.empty() || reference.size() - held > 6) return;
   const double allowed = kFactor * farthest_joint(joints.front(), reference) + kMargin;
   std::erase_if(joints, [&](const JointVector& candidate) { return farthest_joint(candidate, reference) > allowed; });
 }
@@ -109,7 +109,8 @@ Configurations settled(std::vector<JointVector> joints, JointsFrom from) {
 
 }  // namespace
 
-std::optional<JointVector> joints_after_line(const Chain& arm, const JointVector& from, const Eigen::Isometry3d& tool) {
+std::optional<JointVector> joints_after_line(const Chain& arm, const JointVector& from, const Eigen::Isometry3d& tool,
+                                             int held) {
   constexpr double kStep_m = 0.02, kStep_rad = 0.05, kLeap = 0.3, kMostSteps = 500.0;
   const PoseFunction model = nominal_pose(arm);
   const Eigen::Isometry3d start = model(from).pose;
@@ -123,7 +124,7 @@ std::optional<JointVector> joints_after_line(const Chain& arm, const JointVector
     const double share = static_cast<double>(step) / steps;
     Eigen::Isometry3d ahead(Eigen::AngleAxisd(share * angle, axis).toRotationMatrix() * start.linear());
     ahead.translation() = start.translation() + share * way.head<3>();
-    const InverseSolution solution = inverse(model, step == steps ? tool : ahead, joints);
+    const InverseSolution solution = inverse(model, step == steps ? tool : ahead, joints, {.held = held});
     if (solution.status != InverseStatus::converged) return std::nullopt;
     if ((solution.q - joints).cwiseAbs().maxCoeff() > kLeap) return std::nullopt;
     joints = solution.q;
@@ -165,7 +166,7 @@ Configurations ConfigurationFinder::find_worded(const Chain& arm, const std::str
   const bool present = present_ && (present_words_.empty() || present_words_ == words);
   const bool given = !present_ && near_.size() == arm.size();
   const JointVector& reference = present ? *present_ : known != worded_.end() ? known->second : given ? near_ : middle_;
-  std::vector<JointVector> joints = joints_reaching(arm, tool, reference);
+  std::vector<JointVector> joints = joints_reaching(arm, tool, reference, held_);
   if (joints.size() <= 1) return settled(std::move(joints), JointsFrom::only);
   if (known != worded_.end() && keep_posture(arm, joints, known->second)) return {JointsFrom::stated, joints};
   if (present && keep_adjacent(joints, *present_)) return {JointsFrom::before, joints};
@@ -188,7 +189,7 @@ Configurations ConfigurationFinder::find_by_parts(const Chain& arm, const std::v
   const bool given = !present_ && near_.size() == arm.size();
   const std::optional<JointVector> before = given ? std::optional(near_) : present_;
   const JointsFrom from = given ? JointsFrom::given : JointsFrom::before;
-  const std::vector<JointVector> all = joints_reaching(arm, tool, before.value_or(middle_));
+  const std::vector<JointVector> all = joints_reaching(arm, tool, before.value_or(middle_), held_);
   if (all.size() <= 1) return settled(all, JointsFrom::only);
   std::vector<JointVector> joints = all;
   bool told = true, kept = false;
@@ -202,7 +203,7 @@ Configurations ConfigurationFinder::find_by_parts(const Chain& arm, const std::v
   if (joints.size() == 1) return {kept ? from : JointsFrom::stated, joints};
   if (!before) return {JointsFrom::undetermined, joints};
   if (told) {
-    keep_nearest(joints, *before);
+    keep_nearest(joints, *before, held_);
   } else {
     keep_adjacent(joints, *before);
   }
@@ -221,7 +222,27 @@ bool ConfigurationFinder::states_others(const ArmHint& hint) const {
   return false;
 }
 
+/// The same with rails where these have them, so that all joints that it knows differ in the arm's alone.
+ConfigurationFinder ConfigurationFinder::carried_to(const std::vector<Cell>& rails) const {
+  ConfigurationFinder carried = *this;
+  carried.held_ = static_cast<int>(rails.size());
+  const auto carry = [&](JointVector& joints) {
+    for (Eigen::Index i = 0; i < std::min(joints.size(), std::ssize(rails)); ++i)
+      joints[i] = rails[static_cast<std::size_t>(i)].inside();
+  };
+  carry(carried.near_);
+  carry(carried.middle_);
+  if (carried.present_) carry(*carried.present_);
+  for (auto& [words, joints] : carried.worded_) carry(joints);
+  return carried;
+}
+
 Configurations ConfigurationFinder::find(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const {
+  return (target.carried.empty() ? *this : carried_to(target.carried)).find_carried(arm, target, tool);
+}
+
+Configurations ConfigurationFinder::find_carried(const Chain& arm, const Target& target,
+                                                 const Eigen::Isometry3d& tool) const {
   Configurations found = find_any(arm, target, tool);
   const std::string& words = target.hint.configuration;
   if (words.empty() || found.joints.size() != 1 || found.from == JointsFrom::undetermined) return found;
@@ -240,17 +261,17 @@ Configurations ConfigurationFinder::find_any(const Chain& arm, const Target& tar
   const bool states = !hint.quadrants.empty() || !hint.negative.empty();
   const bool goes_on = !states || !hint.counts_on_lines();
   if (!named && goes_on && present_ && target.motion == Motion::line && !states_others(hint)) {
-    if (auto end = joints_after_line(arm, *present_, tool)) return {JointsFrom::line, {std::move(*end)}};
+    if (auto end = joints_after_line(arm, *present_, tool, held_)) return {JointsFrom::line, {std::move(*end)}};
   }
   if (!hint.configuration.empty()) return in_stated_turns(find_worded(arm, hint.configuration, tool), hint);
   if (!hint.parts.empty()) return find_by_parts(arm, hint.parts, tool);
   const JointVector& reference = named ? hint.near : present_ ? *present_ : given ? near_ : middle_;
-  std::vector<JointVector> joints = joints_reaching(arm, tool, reference);
+  std::vector<JointVector> joints = joints_reaching(arm, tool, reference, held_);
   for (JointVector& candidate : joints) candidate = in_hinted_turns(arm, candidate, hint, reference);
   if (states) keep_stated(joints, hint);
   if (joints.size() <= 1) return settled(std::move(joints), states ? JointsFrom::stated : JointsFrom::only);
   if (!named && !present_ && !given) return {JointsFrom::undetermined, std::move(joints)};
-  keep_nearest(joints, reference);
+  keep_nearest(joints, reference, held_);
   return settled(std::move(joints), named ? JointsFrom::stated : present_ ? JointsFrom::before : JointsFrom::given);
 }
 

@@ -20,12 +20,16 @@ namespace demecal::inline programs {
 /// Joints at which the nominal arm's tool point (axes of the flange) stands at `tool`, no two alike but for whole
 /// turns, each in the turn within its limits that is nearest to `reference`; those within the limits where there are
 /// any. They are searched for from a fixed set of joints and from `reference`, so that a far one may be missed but the
-/// answer never varies. Of arms with more than six joints, some of the many.
-std::vector<JointVector> joints_reaching(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference);
+/// answer never varies. Of arms with more than six joints, some of the many. `held` joints, from the base on, stay as
+/// `reference` has them.
+std::vector<JointVector> joints_reaching(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference,
+                                         int held = 0);
 
 /// Joints that the arm ends with when its tool moves from where it is at `from` straight to `tool`, turning evenly.
-/// Nothing where it cannot follow, or passes so near to a singularity that joints would leap.
-std::optional<JointVector> joints_after_line(const Chain& arm, const JointVector& from, const Eigen::Isometry3d& tool);
+/// Nothing where it cannot follow, or passes so near to a singularity that joints would leap. `held` joints, from the
+/// base on, stay as `from` has them.
+std::optional<JointVector> joints_after_line(const Chain& arm, const JointVector& from, const Eigen::Isometry3d& tool,
+                                             int held = 0);
 
 /// Where a target's joints come from.
 enum class JointsFrom {
@@ -57,13 +61,16 @@ class ConfigurationFinder {
   /// a configuration tell it where a target before had the same; otherwise only joints right before, or the user's, do
   /// that are so near that no other configuration can be meant. Where each part of the arm is stated by itself, those
   /// are left that have each on the side that is known to be meant; nearness decides on parts of which any side will
-  /// do.
+  /// do. Rails stand where the target has them; only the joints behind them tell what is near. A line is one as the arm
+  /// on the rails sees it: with even motion of both, it is one.
   Configurations find(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const;
 
   /// Tells where the arm is now, nothing: unknown; and in what words that configuration was stated, empty: in none.
   void arrive(std::optional<JointVector> joints, const std::string& configuration);
 
  private:
+  Configurations find_carried(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const;
+  ConfigurationFinder carried_to(const std::vector<Cell>& rails) const;
   Configurations find_any(const Chain& arm, const Target& target, const Eigen::Isometry3d& tool) const;
   Configurations find_worded(const Chain& arm, const std::string& words, const Eigen::Isometry3d& tool) const;
   Configurations find_by_parts(const Chain& arm, const std::vector<PartHint>& parts,
@@ -75,10 +82,11 @@ class ConfigurationFinder {
   std::optional<JointVector> present_;
   std::string present_words_{};
   std::map<std::string, JointVector> worded_{};  ///< joints last reached in a configuration of these words
+  int held_ = 0;                                 ///< so many joints, from the base on, stand where the target has them
 };
 
-/// Nothing where the arm is not of six revolute joints with parallel axes 2 and 3 and a wrist whose axes meet, or where
-/// one of the positions is so near to a singular one that a side cannot be told.
+/// Nothing where the arm is not of six revolute joints (behind rails or none) with parallel axes 2 and 3 and a wrist
+/// whose axes meet, or where one of the positions is so near to a singular one that a side cannot be told.
 std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other);
 /// The same of shoulder (0), elbow (1) or wrist (2) alone.
 std::optional<bool> same_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part);

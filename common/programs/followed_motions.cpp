@@ -203,7 +203,7 @@ class ArmFollower {
   /// The joints that the arm comes to the target with from where it is, or to a place that is shifted from it.
   Configurations configurations(const Target& target, const ArmKnowledge& arm,
                                 const Eigen::Vector3d& shift_m = Eigen::Vector3d::Zero(), bool along_tool = true) {
-    if (!target.is_pose()) return {JointsFrom::target, {joints_of(target)}};
+    if (!target.is_pose()) return {JointsFrom::target, {stated_joints(target)}};
     if (!target.not_sent_to.empty() || !unknown_frames(target, circumstances_).empty()) return {};
     Chain chain = model_.nominal.chain;
     if (target.frames.tool) chain.tool_m = target.frames.tool->translation();
@@ -215,12 +215,6 @@ class ArmFollower {
     }
     const auto joints = joints_at_point(chain, stated_point(target), last_);
     return joints ? Configurations{JointsFrom::before, {*joints}} : Configurations{};
-  }
-
-  static JointVector joints_of(const Target& target) {
-    JointVector joints(std::ssize(target.joints));
-    for (Eigen::Index i = 0; i < joints.size(); ++i) joints[i] = target.joints[static_cast<std::size_t>(i)].inside();
-    return joints;
   }
 
   const Program& program_;

@@ -31,16 +31,16 @@ bool alike(const Chain& arm, const JointVector& one, const JointVector& other) {
 
 class BranchSearch {
  public:
-  BranchSearch(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference)
-      : arm_(arm), model_(nominal_pose(arm)), tool_(tool), reference_(reference) {}
+  BranchSearch(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference, int held)
+      : arm_(arm), model_(nominal_pose(arm)), tool_(tool), reference_(reference), held_(held) {}
 
   std::vector<JointVector> all() {
     try_from(reference_);
     for (int index = 1; index <= kSearchStarts && found_.size() < kMostBranches; ++index) {
-      try_from(search_start(arm_, index));
+      try_from(search_start(arm_, index, reference_, held_));
     }
     // Neighbours of what was found: the wrist turned over, the elbow and the shoulder on their other side.
-    for (std::size_t i = 0; i < found_.size() && arm_.size() >= 6 && found_.size() < kMostBranches; ++i) {
+    for (std::size_t i = 0; i < found_.size() && arm_.size() - held_ >= 6 && found_.size() < kMostBranches; ++i) {
       try_mirrored(found_[i]);
     }
     return within_limits();
@@ -48,7 +48,7 @@ class BranchSearch {
 
  private:
   void try_from(const JointVector& start) {
-    const InverseSolution solution = inverse(model_, tool_, start);
+    const InverseSolution solution = inverse(model_, tool_, start, {.held = held_});
     if (solution.status != InverseStatus::converged) return;
     const auto same = [&](const JointVector& known) { return alike(arm_, known, solution.q); };
     if (std::none_of(found_.begin(), found_.end(), same)) found_.push_back(solution.q);
@@ -61,8 +61,8 @@ class BranchSearch {
     wrist[last - 2] += kHalf;
     wrist[last - 1] *= -1.0;
     wrist[last] += kHalf;
-    elbow[2] = kHalf - elbow[2];
-    shoulder[0] += kHalf;
+    elbow[held_ + 2] = kHalf - elbow[held_ + 2];
+    shoulder[held_] += kHalf;
     for (const JointVector& start : {wrist, elbow, shoulder}) try_from(start);
   }
 
@@ -88,14 +88,15 @@ class BranchSearch {
   PoseFunction model_;
   const Eigen::Isometry3d& tool_;
   const JointVector& reference_;
+  int held_;
   std::vector<JointVector> found_;
 };
 
 }  // namespace
 
-std::vector<JointVector> joints_reaching(const Chain& arm, const Eigen::Isometry3d& tool,
-                                         const JointVector& reference) {
-  return BranchSearch(arm, tool, reference).all();
+std::vector<JointVector> joints_reaching(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference,
+                                         int held) {
+  return BranchSearch(arm, tool, reference, held).all();
 }
 
 }  // namespace demecal::inline programs

@@ -62,7 +62,7 @@ PoseFunction nominal_pose(const Chain& arm) {
   };
 }
 
-JointVector search_start(const Chain& arm, int index) {
+JointVector search_start(const Chain& arm, int index, const JointVector& reference, int held) {
   JointVector start(arm.size());
   for (Eigen::Index i = 0; i < start.size(); ++i) {
     const Joint& joint = arm.joints[static_cast<std::size_t>(i)];
@@ -73,6 +73,7 @@ JointVector search_start(const Chain& arm, int index) {
     }
     start[i] = lower + (upper - lower) * spread_share(index, static_cast<std::size_t>(i));
   }
+  start.head(held) = reference.head(held);
   return start;
 }
 
@@ -116,12 +117,13 @@ int contradictions(const ArmHint& hint, const JointVector& joints) {
 }
 
 std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometry3d& tool, const ArmHint& hint,
-                                          const JointVector& reference) {
+                                          const JointVector& reference, int held) {
   const PoseFunction model = nominal_pose(arm);
   const JointVector& near = hint.near.size() == arm.size() ? hint.near : reference;
   std::optional<JointSolution> best;
   for (int index = 0; index <= kSearchStarts; ++index) {
-    const InverseSolution solution = inverse(model, tool, index == 0 ? near : search_start(arm, index));
+    const InverseSolution solution =
+        inverse(model, tool, index == 0 ? near : search_start(arm, index, near, held), {.held = held});
     if (solution.status != InverseStatus::converged) continue;
     JointSolution found = candidate(arm, solution.q, hint, near);
     if (!best || better(found, *best)) best = std::move(found);
@@ -141,7 +143,8 @@ std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector
   };
   const Eigen::Isometry3d target{Eigen::Translation3d(point_m)};
   for (int index = 0; index <= kSearchStarts; ++index) {
-    const InverseSolution solution = inverse(model, target, index == 0 ? reference : search_start(arm, index));
+    const InverseSolution solution =
+        inverse(model, target, index == 0 ? reference : search_start(arm, index, reference, 0));
     if (solution.status != InverseStatus::converged) continue;
     const JointSolution found = candidate(arm, solution.q, {}, reference);
     if (!found.outside) return found.q;

@@ -14,9 +14,10 @@ namespace demecal::inline programs {
 /// Joints at which the nominal arm's tool point (chain.tool_m, axes of the flange) stands at `tool`; nothing where none
 /// were found. Of an arm's several configurations: those within the joint limits; of these, those that contradict the
 /// hint least; of these, the nearest to the hint's joints or, where it names none, to `reference`. The configurations
-/// are searched for from a fixed set of joints, so that a far one may be missed but the answer never varies.
+/// are searched for from a fixed set of joints, so that a far one may be missed but the answer never varies. `held`
+/// joints, from the base on, stay as `reference` (or the hint's) has them.
 std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometry3d& tool, const ArmHint& hint,
-                                          const JointVector& reference);
+                                          const JointVector& reference, int held = 0);
 
 /// Joints near `reference` at which the tool point stands at `point_m`, its orientation free; nothing where there are
 /// none.
@@ -30,8 +31,9 @@ int contradictions(const ArmHint& hint, const JointVector& joints);
 /// Pose of the tool point (axes of the flange) and its Jacobian.
 PoseFunction nominal_pose(const Chain& arm);
 inline constexpr int kSearchStarts = 48;
-/// The `index`-th (from 1) of the joints that searches start from, spread evenly over the joints' limits.
-JointVector search_start(const Chain& arm, int index);
+/// The `index`-th (from 1) of the joints that searches start from, spread evenly over the joints' limits, but for
+/// `held`, from the base on, which stand as `reference` has them.
+JointVector search_start(const Chain& arm, int index, const JointVector& reference, int held);
 /// The whole turn of a revolute joint's value that is nearest to `reference` or, where that is outside the limits, one
 /// nearer to them.
 double nearest_turn(const Joint& joint, double value, double reference);

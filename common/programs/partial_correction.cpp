@@ -64,7 +64,8 @@ PoseError in_angles(PoseError error) {
 }
 
 /// The step of least norm in the directions that the arm has not lost, positions counting over `length_m`.
-JointVector kept_step(Jacobian jacobian, PoseError error, double length_m) {
+JointVector kept_step(Jacobian jacobian, PoseError error, double length_m, int held) {
+  jacobian.leftCols(held).setZero();
   jacobian.topRows<3>() /= length_m;
   error.head<3>() /= length_m;
   const SingularSystem svd = singular_system(jacobian, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -73,7 +74,9 @@ JointVector kept_step(Jacobian jacobian, PoseError error, double length_m) {
     const double value = svd.values[i];
     along[i] = value > kLost ? along[i] / value : 0.0;
   }
-  return svd.v * along;
+  JointVector step = svd.v * along;
+  step.head(held).setZero();
+  return step;
 }
 
 /// Whether joints move by no more than the correction (missing at the start) is worth.
@@ -83,14 +86,14 @@ bool is_near(const JointVector& joints, const Stop& start, const PoseError& corr
 }
 
 /// Newton's steps from the start in the directions that are not lost.
-JointVector kept_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start,
-                         double length_m) {
+JointVector kept_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start, double length_m,
+                         int held) {
   constexpr int kSteps = 12;
   constexpr double kSettled = 1e-10;
   JointVector joints = start.joints;
   for (int step = 0; step < kSteps; ++step) {
     const PoseAndJacobian at = robot.predict_with_jacobian(start.with_joints(joints), "");
-    const JointVector change = kept_step(at.jacobian, pose_error(at.pose, goal), length_m);
+    const JointVector change = kept_step(at.jacobian, pose_error(at.pose, goal), length_m, held);
     if (!change.allFinite()) break;
     joints += change;
     if (change.norm() < kSettled) break;
@@ -120,14 +123,15 @@ DeterminedPart determined_part(const Eigen::Vector3d& correction, const Eigen::M
   return part;
 }
 
-InverseSolution nearby_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start) {
+InverseSolution nearby_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start,
+                               int held) {
   constexpr double kPositionFirst_m = 0.01;
-  InverseSolution solution = command_reaching(robot, goal, start);
+  InverseSolution solution = command_reaching(robot, goal, start, {.held = held});
   const PoseError correction = pose_error(robot.predict(start, ""), goal);
   const bool exact = solution.status == InverseStatus::converged && is_near(solution.q, start, correction);
-  if (start.joints.size() < 6 || exact) return solution;
-  solution.q = kept_command(robot, goal, start, kPositionFirst_m);
-  if (!is_near(solution.q, start, correction)) solution.q = kept_command(robot, goal, start, kLength_m);
+  if (start.joints.size() - held < 6 || exact) return solution;
+  solution.q = kept_command(robot, goal, start, kPositionFirst_m, held);
+  if (!is_near(solution.q, start, correction)) solution.q = kept_command(robot, goal, start, kLength_m, held);
   const PoseError left = pose_error(robot.predict(start.with_joints(solution.q), ""), goal);
   solution.position_residual_m = left.head<3>().norm();
   solution.orientation_residual_rad = left.tail<3>().norm();

@@ -28,8 +28,9 @@ std::array<JointAxis, kSix> axes_at(const Chain& arm, const JointVector& joints)
   const Eigen::Vector3d flange = forward(uncoupled, turns).translation();
   const Jacobian jacobian = joint_jacobian(uncoupled, turns, Eigen::Vector3d::Zero());
   std::array<JointAxis, kSix> axes;
+  const Eigen::Index rails = jacobian.cols() - static_cast<Eigen::Index>(kSix);
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    const auto column = jacobian.col(static_cast<Eigen::Index>(i));
+    const auto column = jacobian.col(rails + static_cast<Eigen::Index>(i));
     const Eigen::Vector3d velocity = column.head<3>(), direction = column.tail<3>();
     axes[i] = {flange - velocity.cross(direction), direction};
   }
@@ -53,9 +54,11 @@ double wrist_sine(const std::array<JointAxis, kSix>& axes) {
   return axes[3].direction.cross(axes[5].direction).dot(axes[4].direction);
 }
 
+/// Behind rails, or none.
 bool has_six_axes(const Chain& arm) {
-  return arm.joints.size() == kSix &&
-         std::ranges::all_of(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
+  const auto first = std::ranges::find_if(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
+  return arm.joints.end() - first == kSix &&
+         std::all_of(first, arm.joints.end(), [](const Joint& joint) { return is_revolute(joint); });
 }
 
 /// The sines of shoulder, elbow and wrist; nothing where the arm has none.

@@ -64,6 +64,7 @@ std::string leaving_stated(const Target& target, const Chain& arm, const JointVe
   constexpr std::array<std::size_t, 3> kJoints{1, 2, 4};  // that take the parts to their other sides
   const std::string not_corrected = ": this line was not corrected; a point that is taught farther from there can be";
   const ArmHint& hint = target.hint;
+  const std::size_t carried = target.carried.size();
   if (!target.is_pose() || hint.empty() || nominal == command) return "";
   if (target.motion == Motion::line && !hint.counts_on_lines()) return "";
   for (std::size_t joint = 0; joint < arm.joints.size(); ++joint) {
@@ -73,8 +74,8 @@ std::string leaving_stated(const Target& target, const Chain& arm, const JointVe
   }
   for (std::size_t part = 0; part < kParts.size(); ++part) {
     if (states_side(hint, part) && leaves_side(arm, nominal, command, part))
-      return taken(arm, kJoints[part], nominal, command) + ", where the " + kParts[part] + " is not on the side that " +
-             stated_words(hint, part) + " states" + not_corrected;
+      return taken(arm, carried + kJoints[part], nominal, command) + ", where the " + kParts[part] +
+             " is not on the side that " + stated_words(hint, part) + " states" + not_corrected;
   }
   for (const std::size_t joint : hint.counted_turns) {
     const auto index = static_cast<Eigen::Index>(joint);

@@ -77,7 +77,7 @@ void settle_position(const Target& target, const CommandModel& model, const Eige
   tool.translation() = corrected.command_tool.translation();
   JointVector joints = corrected.command;
   for (int repetition = 0; repetition < kMostRepetitions; ++repetition) {
-    const auto solved = nominal_joints(model.nominal.chain, tool, {.near = joints}, joints);
+    const auto solved = nominal_joints(model.nominal.chain, tool, {.near = joints}, joints, target.held());
     if (!solved || (*solved - corrected.nominal).cwiseAbs().maxCoeff() > kLargestMotion) return;
     joints = *solved;
     const Eigen::Vector3d error = goal_m - model.robot.predict(corrected.stop.with_joints(joints), "").translation();
@@ -125,10 +125,11 @@ std::optional<double> error95_m(const CommandModel& model, const Stop& stop) {
 CorrectedTarget correct_target(const Target& target, const CommandModel& model, const Stop& stop) {
   CorrectedTarget corrected;
   corrected.stop = stop;
+  corrected.held = target.held();
   corrected.nominal = stop.joints;
   corrected.nominal_tool = model.nominal_tool(stop.joints);
   const Eigen::Isometry3d goal = corrected.goal = goal_of(target, model, corrected);
-  const InverseSolution solution = nearby_command(model.robot, goal, stop);
+  const InverseSolution solution = nearby_command(model.robot, goal, stop, target.held());
   corrected.inverse = corrected.command = solution.q;
   corrected.outcome =
       solution.status == InverseStatus::converged ? CorrectionOutcome::corrected : CorrectionOutcome::nearest;
@@ -150,7 +151,7 @@ std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget&
   };
   if (corrected.is_uncorrected()) return texts;
   for (std::size_t i = 0; i < target.joints.size(); ++i) {
-    add(target.joints[i], corrected.command[static_cast<Eigen::Index>(i)]);
+    add(target.joints[i], corrected.command[target.held() + static_cast<Eigen::Index>(i)]);
   }
   const Eigen::Isometry3d in_frame = target.frames.base_from_frame.inverse() * corrected.command_tool;
   for (std::size_t i = 0; i < target.position.size(); ++i) {

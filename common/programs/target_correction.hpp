@@ -36,6 +36,7 @@ struct CorrectedTarget {
   CorrectionOutcome outcome = CorrectionOutcome::no_joints;
   JointsFrom from = JointsFrom::nowhere;
   Stop stop{JointVector()};      ///< the nominal joints and the circumstances they were corrected for
+  int held = 0;                  ///< so many joints, from the base on, stay as they are: rails
   JointVector nominal, command;  ///< joints, rad or m: as the program means, and as it is to be sent
   JointVector inverse;           ///< the model's own, of the whole pose; `command` differs where an orientation is kept
   Eigen::Isometry3d nominal_tool, command_tool;  ///< of the nominal robot there, base frame
@@ -91,7 +92,8 @@ DeterminedPart determined_part(const Eigen::Vector3d& correction, const Eigen::M
 
 /// As command_reaching(), but joints stay within a few times the correction itself (position over 0.3 m, and angle): in
 /// directions that the arm has nearly lost the correction is left, of orientation rather than of position, and the
-/// status is `damped` where that leaves more than 5 um or 0.05 mrad.
-InverseSolution nearby_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start);
+/// status is `damped` where that leaves more than 5 um or 0.05 mrad. `held` joints, from the base on, stay as they are.
+InverseSolution nearby_command(const CorrectedRobot& robot, const Eigen::Isometry3d& goal, const Stop& start,
+                               int held = 0);
 
 }  // namespace demecal::inline programs

@@ -65,7 +65,7 @@ void check_range(int joint, const Joint& link, const CorrectedTarget& corrected,
 JointVector without_formulas(const CorrectedTarget& corrected, const CommandModel& model) {
   CorrectedRobot robot = model.robot;
   for (JointCorrection& correction : robot.corrections) correction = {};
-  return command_reaching(robot, corrected.goal, corrected.stop).q;
+  return command_reaching(robot, corrected.goal, corrected.stop, {.held = corrected.held}).q;
 }
 
 void check_bounds(const CorrectedTarget& corrected, const CommandModel& model, std::vector<std::string>& sentences) {

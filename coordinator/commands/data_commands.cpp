@@ -120,6 +120,7 @@ ExitCode prepare_recordings(const Recordings& recordings, const PrepareRequest& 
 ExitCode run_prepare(const PrepareRequest& request) {
   if (const auto recordings = recordings_asked(request)) return prepare_recordings(*recordings, request);
   const RawMeasurements raw = load_preparation(request.file);
+  for (const std::string& assumed : raw.assumed) fmt::print(stderr, "assumed: {}\n", assumed);
   const Prepared prepared = prepare_measurements(raw);
   const std::optional<FrameKind> asked = frame_asked(request, raw, prepared);
   const std::optional<FrameKind> errors = frame_of_errors(asked, prepared);

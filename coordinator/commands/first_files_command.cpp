@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
+#include <fstream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -70,6 +73,36 @@ struct NewRequest {
 };
 
 const std::vector<std::string> kNewFiles{"robot.yaml", "dataset.yaml", "job.yaml"};
+
+/// The new files as they were before: put back unless keep() is called, so that nothing half-made is left.
+class EarlierFiles {
+ public:
+  EarlierFiles(const std::string& folder, bool had_folder) : folder_(folder), had_folder_(had_folder) {
+    for (const std::string& name : kNewFiles)
+      if (std::filesystem::exists(folder_ / name)) texts_[name] = read_file(folder_ / name);
+  }
+  EarlierFiles(const EarlierFiles&) = delete;
+  EarlierFiles& operator=(const EarlierFiles&) = delete;
+  ~EarlierFiles() {
+    if (kept_) return;
+    std::error_code ignored;
+    for (const std::string& name : kNewFiles) {
+      const auto earlier = texts_.find(name);
+      if (earlier == texts_.end()) {
+        std::filesystem::remove(folder_ / name, ignored);
+      } else {
+        std::ofstream(folder_ / name, std::ios::binary) << earlier->second;
+      }
+    }
+    if (!had_folder_) std::filesystem::remove_all(folder_, ignored);
+  }
+  void keep() { kept_ = true; }
+
+ private:
+  std::filesystem::path folder_;
+  bool had_folder_, kept_ = false;
+  std::map<std::string, std::string> texts_{};
+};
 
 ToldLayout told_layout(const NewRequest& request) {
   ToldLayout told;
@@ -157,6 +190,39 @@ std::vector<std::string> write_found_tool(const NewRequest& request, std::string
           "corrected for that tool's error too"};
 }
 
+struct NewFiles {
+  DataSetDraft draft;
+  std::vector<std::string> notes;  ///< of the arm
+  CheckedData checked;
+};
+
+/// Writes them and reads them back. Where the data do not fit, they stay only if dataset.yaml is where that is put
+/// right.
+NewFiles write_new_files(const NewRequest& request, const ImportedRobot& arm, const std::vector<DataSetDraft>& drafts,
+                         bool had_folder) {
+  const std::string data_set = request.folder + "/dataset.yaml";
+  EarlierFiles earlier(request.folder, had_folder);
+  try {
+    write_file(request.folder + "/robot.yaml", arm.text);
+    write_file(request.folder + "/job.yaml", first_job_text("dataset.yaml"));
+    const DataSetDraft draft = write_fitting_draft(data_set, drafts);
+    std::vector<std::string> notes = arm.notes;
+    for (std::string& note : write_found_tool(request, arm.text)) notes.push_back(std::move(note));
+    CheckedData checked = load_checked(data_set);
+    earlier.keep();
+    return {draft, std::move(notes), std::move(checked)};
+  } catch (const InputError& fault) {
+    const bool there = fault.where().file == data_set;
+    if (there) earlier.keep();
+    fmt::print(stderr, "{}: {}\n", request.folder,
+               there ? fmt::format("the data do not fit together as dataset.yaml has them; {} stay there to be put "
+                                   "right and tried by `demecal check {}`",
+                                   fmt::join(kNewFiles, ", "), data_set)
+                     : "nothing was written there, since the data do not fit");
+    throw;
+  }
+}
+
 ExitCode run_new(const NewRequest& request) {
   const ImportedRobot arm = robot_file(request);
   const std::string named = request.urdf.empty() ? request.robot : request.folder + "/robot.yaml";
@@ -167,14 +233,10 @@ ExitCode run_new(const NewRequest& request) {
   require_no_programs(files);
   const std::vector<GivenTable> tables = read_given_tables(files, joints, told, joint_names(robot));
   const std::vector<DataSetDraft> drafts = draft_data_sets(tables, request.folder, "robot.yaml", joints, told);
+  const bool had_folder = std::filesystem::exists(request.folder);
   make_writable(request.folder, kNewFiles, request.force);
   const FilesBeingWritten written(request.folder, kNewFiles);
-  write_file(request.folder + "/robot.yaml", arm.text);
-  write_file(request.folder + "/job.yaml", first_job_text("dataset.yaml"));
-  const DataSetDraft draft = write_fitting_draft(request.folder + "/dataset.yaml", drafts);
-  std::vector<std::string> notes = arm.notes;
-  for (std::string& note : write_found_tool(request, arm.text)) notes.push_back(std::move(note));
-  const CheckedData checked = load_checked(request.folder + "/dataset.yaml");
+  const auto [draft, notes, checked] = write_new_files(request, arm, drafts, had_folder);
   fmt::print("{}: {} poses of {}; {} written\n", request.folder, checked.data.poses.size(), robot.name,
              fmt::join(kNewFiles, ", "));
   fmt::print("Assumed; check it in dataset.yaml:\n");

@@ -29,12 +29,12 @@ inline Joint link_of(double alpha_rad, double a_m, double d_m) {
   return joint;
 }
 
-/// 0: six joints, spherical wrist; 1: six joints, offset wrist; 2: seven joints.
+/// 0: six joints, spherical wrist; 1: six joints, offset wrist; 2: seven joints; 3: the first on a rail.
 inline Chain cell_arm(RandomStream& stream, int kind) {
   constexpr double kRight = std::numbers::pi / 2;
   const auto about = [&](double length_m) { return length_m * stream.real(0.8, 1.2); };
   Chain chain;
-  if (kind == 0) {
+  if (kind == 0 || kind == 3) {
     chain.joints = {link_of(-kRight, about(0.15), about(0.4)),
                     link_of(0, about(0.6), 0),
                     link_of(-kRight, about(0.1), 0),
@@ -49,6 +49,17 @@ inline Chain cell_arm(RandomStream& stream, int kind) {
                     link_of(-kRight, 0, 0),           link_of(-kRight, 0, about(0.4)), link_of(kRight, 0, 0),
                     link_of(0, 0, about(0.13))};
   }
+  if (kind == 3) {
+    // Along x of the base frame, the arm upright on it.
+    chain.base = Eigen::AngleAxisd(kRight, Eigen::Vector3d::UnitY());
+    Joint rail = link_of(-kRight, 0, 0);
+    rail.type = JointType::prismatic;
+    rail.theta_rad = kRight;
+    rail.lower = 0.0;
+    rail.upper = 3.0;
+    chain.joints.front().theta_rad = -kRight;
+    chain.joints.insert(chain.joints.begin(), rail);
+  }
   const bool on_axis = stream.chance(0.3);
   chain.tool_m = {on_axis ? 0.0 : stream.real(0.05, 0.15), on_axis ? 0.0 : stream.real(-0.1, 0.1),
                   stream.real(0.05, 0.2)};
@@ -60,11 +71,12 @@ inline Chain cell_arm(RandomStream& stream, int kind) {
 inline CorrectedRobot erring_arm(RandomStream& stream, const Robot& nominal) {
   CorrectedRobot robot;
   robot.chain = nominal.chain;
+  const bool railed = !is_revolute(nominal.chain, 0);
   for (std::size_t i = 0; i < robot.chain.joints.size(); ++i) {
     Joint& joint = robot.chain.joints[i];
     if (i > 0) joint.theta_rad += stream.normal() * 1e-3;
-    if (i > 0) joint.d_m += stream.normal() * 3e-4;
-    joint.a_m += stream.normal() * 3e-4;
+    if (i > (railed ? 1 : 0)) joint.d_m += stream.normal() * 3e-4;
+    if (i > 0 || !railed) joint.a_m += stream.normal() * 3e-4;
     joint.alpha_rad += stream.normal() * 5e-4;
   }
   robot.corrections.assign(robot.chain.joints.size(), {});
@@ -80,9 +92,10 @@ inline JointVector joints_about(RandomStream& stream, const JointVector& middle,
 
 /// Away from stretched elbows and straight wrists.
 inline JointVector middle_of(RandomStream& stream, int kind) {
-  JointVector middle(kind == 2 ? 7 : 6);
+  JointVector middle(kind >= 2 ? 7 : 6);
   if (kind == 0) middle << 0.2, -0.9, 0.6, 0.1, 0.9, 0.3;
   if (kind == 1) middle << 0.3, -1.2, 1.4, -1.3, -1.5, 0.2;
+  if (kind == 3) middle << 1.5, 0.2, -0.9, 0.6, 0.1, 0.9, 0.3;
   if (kind == 2) middle << 0.1, 0.5, 0.2, -1.2, 0.3, 0.9, 0.1;
   return middle + random_change(stream, static_cast<int>(middle.size()), 0.2);
 }

@@ -89,6 +89,36 @@ TEST(Preparation, ReadsTablesOfJointsAndInstrumentsThatGiveCoordinates) {
   EXPECT_NEAR(*error_statistic(raw, prepared).sets.at(0).spread_mm, std::sqrt(0.5), 1e-6);
 }
 
+TEST(Preparation, ReadsTablesOfInstrumentsAsOtherProgramsWriteThem) {
+  const TemporaryFolder folder;
+  folder.write("robot.yaml", read_file(kShipped / "../robots/puma761.yaml"));
+  folder.write("joints.csv", "name,q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg\nP1,1,2,3,4,5,6\nP2,2,3,4,5,6,7\n");
+  const auto file = folder.write("p.yaml",
+                                 "demecal_preparation: 1\nrobot: robot.yaml\ninstrument: points\nsets: [{set: accept, "
+                                 "joints: joints.csv, readings: seen.txt}]\n");
+  const auto points = [&](const std::string& text) {
+    folder.write("seen.txt", text);
+    return load_preparation(file);
+  };
+  const auto expect_points = [&](const RawMeasurements& raw) {
+    const Readings& readings = raw.sets.front().readings;
+    ASSERT_EQ(readings.rows.size(), 2u);
+    EXPECT_TRUE(readings.named);
+    EXPECT_EQ(readings.rows[0].pose, "P1");
+    EXPECT_LT((readings.rows[0].point_m - Eigen::Vector3d(1.5005, -0.25, 0.75)).norm(), 1e-12);
+    EXPECT_LT((readings.rows[1].point_m - Eigen::Vector3d(1.6, 0.0, 0.8)).norm(), 1e-12);
+  };
+  const RawMeasurements spoken = points(
+      "\xEF\xBB\xBFSurvey of a robot\r\n\r\nPoint;X [mm];Y [mm];Z [mm]\r\nP1;1500,5;-250,0;750,0\r\n"
+      "P2;1600,0;0,0;800,0\r\n");
+  expect_points(spoken);
+  EXPECT_THAT(spoken.assumed.at(0), HasSubstr("semicolons between 4 columns, decimal commas"));
+  expect_points(points("Name\tX_m\tY_m\tZ_m\nP1\t1.5005\t-0.25\t0.75\nP2\t1.6\t0\t0.8\n"));
+  const RawMeasurements unitless = points("point,x,y,z\nP1,1500.5,-250,750\nP2,1600,0,800\n");
+  expect_points(unitless);
+  EXPECT_THAT(unitless.assumed.at(0), HasSubstr("points are taken to be in mm, since the largest number is 1600"));
+}
+
 /// A change to one of the files, and what the user must be told.
 struct Bad {
   const char* name;
@@ -143,7 +173,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"CordsThatDoNotMeet", "calibration.csv", "c_counts\n1,38622,", "c_counts\n1,386,", "calibration.csv:3",
             "do not meet"},
         Bad{"MissingCell", "validation.csv", "pose,a_counts,b_counts,c_counts\n1,",
-            "pose,a_counts,b_counts,c_counts\n1,,", "validation.csv:3", "has 5 fields, but the header has 4"},
+            "pose,a_counts,b_counts,c_counts\n1,,", "validation.csv:3", "has 5 fields, but those below have 4"},
         Bad{"NotANumber", "validation.csv", "c_counts\n1,", "c_counts\n1,nan,1,2\n2,", "validation.csv:3",
             "'nan': column a_counts must be a finite number"},
         Bad{"PoseThatIsNone", "validation.csv", "c_counts\n1,", "c_counts\n13,", "validation.csv:3",

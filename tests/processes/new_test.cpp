@@ -240,6 +240,39 @@ TEST(New, RefusesWhatCannotBeToldAndLeavesStrangersFiles) {
   EXPECT_EQ(mine.code, 10) << mine.err;
 }
 
+TEST(New, LeavesNothingHalfMadeWhereTheDataDoNotFit) {
+  const SmallJob job;
+  const std::string robot = shipped_robot("ur10");
+  const auto table = [&](const std::string& last) {
+    std::ofstream file(job.path("poses.csv"));
+    file << "q1_deg,q2_deg,q3_deg,q4_deg,q5_deg,q6_deg,x_mm,y_mm,z_mm,payload_kg\n";
+    for (int pose = 0; pose < 12; ++pose)
+      file << 5 * pose << ",-60,80," << -100 + 2 * pose << ",-90," << 3 * pose << ",700," << 10 * pose << ",300,"
+           << (pose < 11 ? "1" : last) << '\n';
+  };
+  const auto make = [&] {
+    return run("demecal", {"new", job.path("cell"), "--robot", robot, "--poses", job.path("poses.csv")});
+  };
+  table("heavy");
+  const Ended refused = make();
+  EXPECT_EQ(refused.code, 11) << refused.out;
+  EXPECT_THAT(refused.err, HasSubstr("poses.csv:13: 'heavy'"));
+  EXPECT_THAT(refused.err, HasSubstr("cell: nothing was written there, since the data do not fit"));
+  EXPECT_FALSE(std::filesystem::exists(job.path("cell")));
+
+  // What an earlier run made, and nobody changed, stays as it was, and may be written anew.
+  std::filesystem::create_directories(job.path("cell"));
+  table("1");
+  make();
+  const std::string earlier = job.text("cell/dataset.yaml");
+  EXPECT_THAT(earlier, HasSubstr("payload: payload_kg"));
+  table("heavy");
+  EXPECT_EQ(make().code, 11);
+  EXPECT_EQ(job.text("cell/dataset.yaml"), earlier);
+  table("1");
+  EXPECT_NE(make().code, 10) << "the files are still demecal's own";
+}
+
 TEST(Template, PrintsAFileOrWritesItOnce) {
   const SmallJob job;
   const Ended printed = run("demecal", {"template", "robot"});
