@@ -92,6 +92,7 @@ struct Robot {
   std::vector<LinkMass> masses;  ///< empty where unknown
   Eigen::Vector3d gravity_mps2{0.0, 0.0, -9.81};
   std::optional<double> repeatability_m;
+  std::optional<double> payload_kg{};    ///< the most that it carries beyond its flange
   JointVector home{};                    ///< rad, m: where programs start that do not say it; empty: not declared
   std::vector<double> pulses_per_deg{};  ///< of each joint's motor (per mm where it slides); empty: not declared
   std::optional<DrawnArm> drawing{};     ///< where the file says more of the arm than rows; `chain` is made from it

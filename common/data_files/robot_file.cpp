@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "data/payload.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
@@ -42,6 +43,13 @@ Eigen::Vector3d read_gravity(const YamlNode& node) {
     node.fail("", "must not exceed " + number_text(kMostGravity_mps2) + " m/s^2 in size");
   }
   return gravity_mps2;
+}
+
+double read_payload(const YamlNode& node) {
+  const double payload_kg = node.positive();
+  if (payload_kg > kMostPayload_kg)
+    node.fail("", "must not exceed " + number_text(kMostPayload_kg) + ", more than any robot carries: it is in kg");
+  return payload_kg;
 }
 
 /// The file's place is kept whole: models that hold the robot stand in other folders.
@@ -144,7 +152,7 @@ MatrixText read_matrix(const YamlNode& node) {
 
 Robot read_robot(const YamlNode& node) {
   node.with_keys({"demecal_robot", "name", "convention", "base", "joints", "flange", "couplings", "tool_mm", "links",
-                  "gravity_mps2", "urdf", "repeatability_mm", "home_deg", "pulses_per_deg", "balancers"});
+                  "gravity_mps2", "urdf", "repeatability_mm", "payload_kg", "home_deg", "pulses_per_deg", "balancers"});
   Robot robot;
   robot.name = node.at("name").text();
   DrawnArm drawing = read_drawing(node);
@@ -162,6 +170,7 @@ Robot read_robot(const YamlNode& node) {
   }
   if (const YamlNode* gravity = node.find("gravity_mps2")) robot.gravity_mps2 = read_gravity(*gravity);
   if (const YamlNode* spread = node.find("repeatability_mm")) robot.repeatability_m = metres(spread->non_negative());
+  if (const YamlNode* payload = node.find("payload_kg")) robot.payload_kg = read_payload(*payload);
   if (const YamlNode* urdf = node.find("urdf")) robot.urdf = read_urdf_source(*urdf);
   if (const YamlNode* home = node.find("home_deg")) robot.home = read_declared_home(*home, robot.chain);
   if (const YamlNode* pulses = node.find("pulses_per_deg")) robot.pulses_per_deg = read_pulses(*pulses, robot.chain);
@@ -192,6 +201,7 @@ std::string robot_text(const Robot& robot, int indent) {
   }
   text << margin << "gravity_mps2: " << yaml_numbers({robot.gravity_mps2.data(), 3}) << '\n';
   if (robot.repeatability_m) text << margin << "repeatability_mm: " << millimetres_text(*robot.repeatability_m) << '\n';
+  if (robot.payload_kg) text << margin << "payload_kg: " << number_text(*robot.payload_kg) << '\n';
   if (robot.urdf) {
     text << margin << "urdf: {file: " << yaml_text(robot.urdf->file) << ", base: " << yaml_text(robot.urdf->base)
          << ", tip: " << yaml_text(robot.urdf->tip) << "}\n";

@@ -21,6 +21,7 @@ joints:                    # from the base on; the figures below are an example:
 #   - {mass_kg: 20, com_mm: [0, 0, 100]}
 # gravity_mps2: [0, 0, -9.81]   # in the base frame: other for a wall, a ceiling or a tilted base
 # repeatability_mm: 0.05   # the maker's
+# payload_kg: 10           # the most that the arm carries: data and programs with more are named
 # home_deg: [0, -90, 90, 0, 90, 0]   # where programs start that do not say it
 # pulses_per_deg: [1024, 1024, 1024, 900, 900, 450]   # of the positions in pulses of a Yaskawa's jobs
 # balancers:                          # springs that relieve joints: pivots from the axis, and where it is shortest

@@ -39,6 +39,7 @@ TEST(LoadRobot, ReadsEveryKey) {
   EXPECT_DOUBLE_EQ(robot.masses[0].centre_m.x(), -0.2);
   EXPECT_EQ(robot.gravity_mps2, Eigen::Vector3d(0.0, 0.0, -9.81));
   EXPECT_DOUBLE_EQ(*robot.repeatability_m, 5e-5);
+  EXPECT_DOUBLE_EQ(*robot.payload_kg, 10.0);
 }
 
 TEST(LoadDataSet, ReadsEveryKey) {

@@ -20,6 +20,7 @@ links:
   - {mass_kg: 1, com_mm: [-150, 0, 0]}
 gravity_mps2: [0, 0, -9.81]
 repeatability_mm: 0.05
+payload_kg: 10
 )yaml";
 
 inline const std::string kDataSetText = R"yaml(# poses of the arm of two joints

@@ -291,6 +291,8 @@ TEST(CheckData, NamesPayloadsThatNoArmCarries) {
   EXPECT_THAT(told().sentence, HasSubstr("more than all links of this arm weigh (60 kg)"));
   data.robot.masses.back().mass_kg = 0.0;  // not known
   EXPECT_FALSE(check_data(data).has(FindingKind::implausible_payload));
+  data.robot.payload_kg = 1999.0;
+  EXPECT_THAT(told().sentence, HasSubstr("more than this arm carries (1999 kg, `payload_kg`)"));
 }
 
 }  // namespace

@@ -48,6 +48,7 @@ Robot random_robot(RandomStream& random) {
   robot.chain.tool_m = {random.real(), random.real(), random.real()};
   robot.gravity_mps2 = {random.real(), random.real(), -9.5};
   robot.repeatability_m = random.real(0.0, 1e-3);
+  robot.payload_kg = random.real(1.0, 2000.0);
   if (random.chance(0.5)) {
     robot.home = JointVector::Zero(robot.chain.size());
     for (double& value : robot.home) value = random.real(-1.0, 1.0);
@@ -116,6 +117,7 @@ void expect_same_robot(const Robot& back, const Robot& robot) {
   expect_same_vector(back.chain.tool_m, robot.chain.tool_m);
   EXPECT_EQ(back.gravity_mps2, robot.gravity_mps2);
   expect_same(*back.repeatability_m, *robot.repeatability_m);
+  expect_same(*back.payload_kg, *robot.payload_kg);
   EXPECT_EQ(back.pulses_per_deg, robot.pulses_per_deg);
   ASSERT_EQ(back.balancers.size(), robot.balancers.size());
   for (std::size_t i = 0; i < robot.balancers.size(); ++i) {
