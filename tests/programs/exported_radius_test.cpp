@@ -15,7 +15,7 @@
 namespace demecal {
 namespace {
 
-std::string listed(const Eigen::VectorXd& numbers) {
+std::string with_commas(const Eigen::VectorXd& numbers) {
   std::ostringstream text;
   text << std::setprecision(17);
   for (Eigen::Index i = 0; i < numbers.size(); ++i) text << (i == 0 ? "" : ",") << numbers[i];
@@ -108,11 +108,11 @@ TEST(ExportedRadius, InCIsThatOfTheLibrary) {
   std::ostringstream code;
   code << exported.code << std::setprecision(17) << "#include <stdio.h>\nint main(void) {\n"
        << "  static const double stops[][6] = {";
-  for (const Stop& stop : stops) code << '{' << listed(stop.joints) << "},\n";
+  for (const Stop& stop : stops) code << '{' << with_commas(stop.joints) << "},\n";
   code << "};\n  static const struct circumstances at[] = {";
   for (const Stop& stop : stops)
     code << '{' << stop.payload_kg << ',' << *stop.temperature_celsius - exported.reference_celsius << ",{"
-         << listed(stop.approach) << "}},\n";
+         << with_commas(stop.approach) << "}},\n";
   code << "};\n  for (int i = 0; i < " << stops.size()
        << "; ++i) printf(\"%.17g %.17g\\n\", radius95_at(at + i, stops[i]), radius95(stops[i]));\n  return 0;\n}\n";
   const CodeFolder folder;
@@ -134,8 +134,8 @@ TEST(ExportedRadius, InPythonIsThatOfTheLibrary) {
   std::ostringstream code;
   code << exported.code << std::setprecision(17) << "\n\nfor q, payload, warming, approach in [\n";
   for (const Stop& stop : stops)
-    code << "([" << listed(stop.joints) << "]," << stop.payload_kg << ','
-         << *stop.temperature_celsius - exported.reference_celsius << ",[" << listed(stop.approach) << "]),\n";
+    code << "([" << with_commas(stop.joints) << "]," << stop.payload_kg << ','
+         << *stop.temperature_celsius - exported.reference_celsius << ",[" << with_commas(stop.approach) << "]),\n";
   code << "]:\n    print(repr(radius95(q, payload, warming, approach)), repr(radius95(q)))\n";
   const CodeFolder folder;
   int failed = 0;
@@ -155,9 +155,10 @@ TEST(ExportedRadius, InMatlabIsThatOfTheLibrary) {
   std::ostringstream code;
   code << std::setprecision(17);
   for (const Stop& stop : stops)
-    code << "[~, ~, at] = forward([" << listed(stop.joints) << "]," << stop.payload_kg << ','
-         << *stop.temperature_celsius - exported.reference_celsius << ",[" << listed(stop.approach)
-         << "]);\n[~, ~, alone] = forward([" << listed(stop.joints) << "]);\nprintf('%.17g %.17g\\n', at, alone);\n";
+    code << "[~, ~, at] = forward([" << with_commas(stop.joints) << "]," << stop.payload_kg << ','
+         << *stop.temperature_celsius - exported.reference_celsius << ",[" << with_commas(stop.approach)
+         << "]);\n[~, ~, alone] = forward([" << with_commas(stop.joints)
+         << "]);\nprintf('%.17g %.17g\\n', at, alone);\n";
   folder.write("judge.m", code.str());
   int failed = 0;
   const std::string printed = output_of("octave -qf -p " + folder.path("") + " --eval judge", failed);
