@@ -45,7 +45,7 @@ Eigen::Vector3d read_gravity(const YamlNode& node) {
   return gravity_mps2;
 }
 
-double read_payload(const YamlNode& node) {
+double read_most_payload(const YamlNode& node) {
   const double payload_kg = node.positive();
   if (payload_kg > kMostPayload_kg)
     node.fail("", "must not exceed " + number_text(kMostPayload_kg) + ", more than any robot carries: it is in kg");
@@ -170,7 +170,7 @@ Robot read_robot(const YamlNode& node) {
   }
   if (const YamlNode* gravity = node.find("gravity_mps2")) robot.gravity_mps2 = read_gravity(*gravity);
   if (const YamlNode* spread = node.find("repeatability_mm")) robot.repeatability_m = metres(spread->non_negative());
-  if (const YamlNode* payload = node.find("payload_kg")) robot.payload_kg = read_payload(*payload);
+  if (const YamlNode* payload = node.find("payload_kg")) robot.payload_kg = read_most_payload(*payload);
   if (const YamlNode* urdf = node.find("urdf")) robot.urdf = read_urdf_source(*urdf);
   if (const YamlNode* home = node.find("home_deg")) robot.home = read_declared_home(*home, robot.chain);
   if (const YamlNode* pulses = node.find("pulses_per_deg")) robot.pulses_per_deg = read_pulses(*pulses, robot.chain);

@@ -199,9 +199,8 @@ struct NewFiles {
 /// Writes them and reads them back. Where the data do not fit, they stay only if dataset.yaml is where that is put
 /// right.
 NewFiles write_new_files(const NewRequest& request, const ImportedRobot& arm, const std::vector<DataSetDraft>& drafts,
-                         bool had_folder) {
+                         EarlierFiles& earlier) {
   const std::string data_set = request.folder + "/dataset.yaml";
-  EarlierFiles earlier(request.folder, had_folder);
   try {
     write_file(request.folder + "/robot.yaml", arm.text);
     write_file(request.folder + "/job.yaml", first_job_text("dataset.yaml"));
@@ -235,8 +234,9 @@ ExitCode run_new(const NewRequest& request) {
   const std::vector<DataSetDraft> drafts = draft_data_sets(tables, request.folder, "robot.yaml", joints, told);
   const bool had_folder = std::filesystem::exists(request.folder);
   make_writable(request.folder, kNewFiles, request.force);
+  EarlierFiles earlier(request.folder, had_folder);  // put back behind `written`, which notes what is there
   const FilesBeingWritten written(request.folder, kNewFiles);
-  const auto [draft, notes, checked] = write_new_files(request, arm, drafts, had_folder);
+  const auto [draft, notes, checked] = write_new_files(request, arm, drafts, earlier);
   fmt::print("{}: {} poses of {}; {} written\n", request.folder, checked.data.poses.size(), robot.name,
              fmt::join(kNewFiles, ", "));
   fmt::print("Assumed; check it in dataset.yaml:\n");
