@@ -54,9 +54,7 @@ class Remarks {
     if (model_.interval->fitted && certificate_.uncertainty)
       add("Uncertainties come from the poses to which the model was fitted, since there were no validation poses: they "
           "may be too narrow.");
-    if (model_.interval->along_path)
-      add("The poses that the model was made from follow each other along a path: uncertainties at poses far from it "
-          "may be too narrow, although every joint was measured there.");
+    if (model_.interval->along_path) add(std::string("Of the stated uncertainties: ") + kAlongPathRemark + '.');
   }
 
   void add_on_set() {

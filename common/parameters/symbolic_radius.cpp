@@ -148,13 +148,12 @@ class RadiusFormulas {
   }
 
   SymbolicVector spread_of(const ParameterId& id) const {
-    using Kind = ParameterId::Kind;
-    if (id.kind == Kind::link)
+    if (id.kind == ParameterId::Kind::link)
       return walk_.screws[static_cast<std::size_t>(id.index)][static_cast<std::size_t>(id.link)].moves(walk_.point);
-    if (id.kind == Kind::tool_translation && id.target.empty())
+    if (id.kind == ParameterId::Kind::tool_translation && id.target.empty())
       return walk_.flange.axes[static_cast<std::size_t>(id.index)];
     SymbolicVector sum = constant_vector(algebra_, Eigen::Vector3d::Zero());
-    if (id.kind != Kind::effect) return sum;
+    if (id.kind != ParameterId::Kind::effect) return sum;
     for (const SymbolicEffectUnit& one : arm_.units) {
       if (static_cast<int>(one.effect) != id.index || one.unit.coefficient != id.coefficient) continue;
       if (one.unit.place == kSensorPlace) continue;
