@@ -14,7 +14,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-class Cell : public testing::Test {
+class StatedCell : public testing::Test {
  protected:
   CellFile load(const std::string& text) {
     files_.write("robot.yaml", kRobotText);
@@ -27,7 +27,7 @@ class Cell : public testing::Test {
   TemporaryFolder files_;
 };
 
-TEST_F(Cell, RefusesRadiiThatNoArmHas) {
+TEST_F(StatedCell, RefusesRadiiThatNoArmHas) {
   EXPECT_THAT(complaint("link_radius_mm: 0.05\n"), AllOf(HasSubstr("cell.yaml:2"), HasSubstr("'0.05'"),
                                                          HasSubstr("must be 5 mm or more"), HasSubstr("metres")));
   EXPECT_THAT(complaint("noise_mm: 0.03\nlink_radius_mm: [60, 50, 4.9]\n"),
@@ -35,13 +35,13 @@ TEST_F(Cell, RefusesRadiiThatNoArmHas) {
   EXPECT_THAT(complaint("link_radius_mm: [0, 50, 10]\n"), HasSubstr("'0'"));
 }
 
-TEST_F(Cell, TakesRadiiThatArmsHave) {
+TEST_F(StatedCell, TakesRadiiThatArmsHave) {
   EXPECT_THAT(load("link_radius_mm: 5\n").cell.radii_m, testing::Each(5e-3));
   EXPECT_THAT(load("link_radius_mm: [60, 50, 8]\n").cell.radii_m,
               testing::ElementsAre(testing::DoubleEq(0.06), testing::DoubleEq(0.05), testing::DoubleEq(8e-3)));
 }
 
-TEST_F(Cell, RefusesObstaclesInMetres) {
+TEST_F(StatedCell, RefusesObstaclesInMetres) {
   const std::string pole = "  - {from_mm: [0.45, 0, 0], to_mm: [0.45, 0, 1.2], radius_mm: 0.1}\n";
   const std::string thin = "  - {from_mm: [450, 0, 0], to_mm: [450, 0, 1200], radius_mm: 0}\n";
   EXPECT_THAT(complaint("obstacles:\n" + thin + pole),
@@ -49,7 +49,7 @@ TEST_F(Cell, RefusesObstaclesInMetres) {
   EXPECT_EQ(complaint("obstacles:\n" + thin), "");
 }
 
-TEST_F(Cell, KnowsWhereItsRulesStand) {
+TEST_F(StatedCell, KnowsWhereItsRulesStand) {
   const CellFile file = load("noise_mm: 0.03\ntool_box_mm: {lower: [0, 0, 0], upper: [1, 1, 1]}\n");
   ASSERT_TRUE(file.stated.contains(Obstruction::tool_box));
   EXPECT_EQ(file.stated.at(Obstruction::tool_box).where.line, 3u);
