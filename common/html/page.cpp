@@ -170,6 +170,13 @@ std::string report_html(const Report& report, const FitnessHistory& history) {
 
 namespace {
 
+std::string other_model_line(const LineChart& chart, double check, const std::string& model) {
+  return fmt::format(
+      "<line class=\"zero\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1:.1f}\" y2=\"{2:.1f}\"><title>from here by "
+      "{3}</title></line>\n",
+      chart.x(check), chart.y.from_px, chart.y.to_px, escaped(model));
+}
+
 std::string control_chart(const std::vector<CheckRecord>& records) {
   double highest = 2.0;
   for (const CheckRecord& one : records) highest = std::max({highest, 1.1 * one.strain, 1.1 * one.strain_limit});
@@ -179,28 +186,38 @@ std::string control_chart(const std::vector<CheckRecord>& records) {
   chart.y_title = "errors over expected ones";
   chart.label = "How far each check strayed from the model, and the limit";
   std::vector<PicturePoint> strain, limit;
-  std::string dots;
+  std::string dots, lines;
+  const auto end_lines = [&] {  // what strays from one model is no sequel to what strayed from another
+    lines += polyline(limit, "noise", "exceeded by one unchanged robot in a thousand") +
+             polyline(strain, "island i0", "errors over expected ones");
+    strain.clear();
+    limit.clear();
+  };
   for (std::size_t i = 0; i < records.size(); ++i) {
     const double x = chart.x(static_cast<double>(i + 1));
+    if (i > 0 && !records[i].of_model_of(records[i - 1])) {
+      end_lines();
+      lines += other_model_line(chart, static_cast<double>(i) + 0.5, records[i].model);
+    }
     strain.emplace_back(x, chart.y(records[i].strain));
     limit.emplace_back(x, chart.y(records[i].strain_limit));
     dots += fmt::format("<circle class=\"{}\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"4\"><title>{}: {}</title></circle>\n",
                         records[i].verdict == "changed" ? "added" : "pose", x, strain.back().second,
                         escaped(records[i].date), escaped(records[i].verdict));
   }
-  return chart_svg(chart, polyline(limit, "noise", "exceeded by one unchanged robot in a thousand") +
-                              polyline(strain, "island i0", "errors over expected ones") + dots);
+  end_lines();
+  return chart_svg(chart, lines + dots);
 }
 
 std::string record_table(const std::vector<CheckRecord>& records) {
   std::string rows;
   for (auto one = records.rbegin(); one != records.rend(); ++one)
-    rows += table_row(escaped(one->date),
-                      {escaped(one->verdict), fixed(one->strain, 2), fixed(one->strain_limit, 2),
-                       fixed(one->error_mm, 3), std::to_string(one->poses), escaped(one->cause), escaped(one->data)});
+    rows += table_row(escaped(one->date), {escaped(one->verdict), fixed(one->strain, 2), fixed(one->strain_limit, 2),
+                                           fixed(one->error_mm, 3), std::to_string(one->poses), escaped(one->cause),
+                                           escaped(one->data), escaped(one->model)});
   return table_panel("checks",
                      "<th>date</th><th>verdict</th><th>errors over expected</th><th>limit</th><th>error, mm rms</th>"
-                     "<th>poses</th><th>cause</th><th>data</th>",
+                     "<th>poses</th><th>cause</th><th>data</th><th>model</th>",
                      rows, records.size());
 }
 
@@ -217,7 +234,7 @@ std::string check_history_html(const std::vector<CheckRecord>& records) {
          section(
              "chart", "Errors over expected ones, check by check",
              "<p class=\"legend soft\">1 is what model and noise lead one to expect; dashed: one unchanged robot in a "
-             "thousand is beyond it</p>\n" +
+             "thousand is beyond it; a line upright: from there on by another model</p>\n" +
                  control_chart(records)) +
          section("record", "The record, the latest first", record_table(records)) + "</main>\n</body>\n</html>\n";
 }

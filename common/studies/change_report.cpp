@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -153,9 +154,10 @@ std::string change_text(const ChangeReport& change, const DataSet& data, const s
 
 namespace {
 
+/// Those behind `model` are of later versions: a record may lack them.
 const std::vector<std::string>& history_columns() {
-  static const std::vector<std::string> all{"date",  "verdict", "strain", "strain_limit", "error_mm",
-                                            "poses", "cause",   "data",   "model",        "robot"};
+  static const std::vector<std::string> all{"date",  "verdict", "strain", "strain_limit", "error_mm",    "poses",
+                                            "cause", "data",    "model",  "robot",        "model_sha256"};
   return all;
 }
 
@@ -166,8 +168,13 @@ std::string checked_robot(const CalibratedModel& model) {
   return on_one_line(model.nominal.name + (serial.empty() ? "" : ", serial number " + serial));
 }
 
+bool CheckRecord::of_model_of(const CheckRecord& other) const {
+  const bool both_say = !model_sha256.empty() && !other.model_sha256.empty();
+  return both_say ? model_sha256 == other.model_sha256 : model == other.model;
+}
+
 CheckRecord check_record(const ChangeReport& change, const DataSet& data, const CalibratedModel& model,
-                         const std::string& model_file, const std::string& date) {
+                         const std::string& model_file, const std::string& model_sha256, const std::string& date) {
   std::string causes;
   for (const ChangeCause& cause : change.found) causes += (causes.empty() ? "" : " and ") + to_string(cause.effect);
   if (change.unnamed) causes = "cannot be named";
@@ -181,7 +188,8 @@ CheckRecord check_record(const ChangeReport& change, const DataSet& data, const 
           .strain_limit = change.strain_limit,
           .error_mm = millimetres(change.error_m),
           .cause = causes,
-          .robot = checked_robot(model)};
+          .robot = checked_robot(model),
+          .model_sha256 = model_sha256};
 }
 
 std::string check_history_csv(const std::vector<CheckRecord>& records) {
@@ -191,7 +199,7 @@ std::string check_history_csv(const std::vector<CheckRecord>& records) {
     table.rows.push_back({0,
                           {on_one_line(one.date), one.verdict, number_text(one.strain), number_text(one.strain_limit),
                            number_text(one.error_mm), std::to_string(one.poses), on_one_line(one.cause),
-                           on_one_line(one.data), on_one_line(one.model), on_one_line(one.robot)}});
+                           on_one_line(one.data), on_one_line(one.model), on_one_line(one.robot), one.model_sha256}});
   return csv_text(table);
 }
 
@@ -200,22 +208,26 @@ std::vector<CheckRecord> read_check_history(const std::string& text, const std::
   if (text.empty()) return records;
   std::istringstream in(text);
   const CsvTable table = read_csv(in, file);
-  std::vector<TableColumn> read;
-  const bool names_robot = std::ranges::count(table.columns, history_columns().back()) > 0;
-  for (const std::string& column : history_columns())
-    if (names_robot || column != history_columns().back())
-      read.emplace_back(table, ColumnName{column, {file, table.header_line}});
+  constexpr std::size_t kRequired = 9;
+  std::vector<std::optional<TableColumn>> read(history_columns().size());
+  for (std::size_t i = 0; i < read.size(); ++i)
+    if (const std::string& name = history_columns()[i]; i < kRequired || std::ranges::count(table.columns, name) > 0)
+      read[i].emplace(table, ColumnName{name, {file, table.header_line}});
+  const auto text_of = [&](std::size_t column, const CsvRow& row) {
+    return read[column] ? read[column]->text(row) : std::string();
+  };
   for (const CsvRow& row : table.rows)
-    records.push_back({.date = read[0].text(row),
-                       .model = read[8].text(row),
-                       .data = read[7].text(row),
-                       .poses = static_cast<std::uint64_t>(std::max(0.0, read[5].number(row))),
-                       .verdict = read[1].text(row),
-                       .strain = read[2].number(row),
-                       .strain_limit = read[3].number(row),
-                       .error_mm = read[4].number(row),
-                       .cause = read[6].text(row),
-                       .robot = names_robot ? read.back().text(row) : std::string()});
+    records.push_back({.date = text_of(0, row),
+                       .model = text_of(8, row),
+                       .data = text_of(7, row),
+                       .poses = static_cast<std::uint64_t>(std::max(0.0, read[5]->number(row))),
+                       .verdict = text_of(1, row),
+                       .strain = read[2]->number(row),
+                       .strain_limit = read[3]->number(row),
+                       .error_mm = read[4]->number(row),
+                       .cause = text_of(6, row),
+                       .robot = text_of(9, row),
+                       .model_sha256 = text_of(10, row)});
   return records;
 }
 

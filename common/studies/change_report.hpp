@@ -28,13 +28,17 @@ struct CheckRecord {
   double error_mm = 0.0;                    ///< rms of the tool by the model
   std::string cause;                        ///< what was found, in words; empty: nothing
   std::string robot{};                      ///< see checked_robot(); empty in a record that does not say
+  std::string model_sha256{};               ///< of the model file's bytes; likewise
+
+  /// Whether both strayed from one model, as far as the records tell.
+  bool of_model_of(const CheckRecord& other) const;
 };
 
 /// The robot that the model is of: its name and, where the model's job stated it, its serial number.
 std::string checked_robot(const CalibratedModel& model);
 
 CheckRecord check_record(const ChangeReport& change, const DataSet& data, const CalibratedModel& model,
-                         const std::string& model_file, const std::string& date);
+                         const std::string& model_file, const std::string& model_sha256, const std::string& date);
 
 /// A table that read_check_history() reads back.
 std::string check_history_csv(const std::vector<CheckRecord>& records);

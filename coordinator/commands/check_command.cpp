@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <set>
@@ -16,6 +18,7 @@
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "html/page.hpp"
 #include "kinematics/units.hpp"
@@ -67,8 +70,11 @@ void keep(const CheckRequest& request, CheckRecord check, std::vector<CheckRecor
   records.push_back(std::move(check));
   write_result(request.history, kHistoryTable, check_history_csv(records));
   write_result(request.history, kHistoryPage, check_history_html(records));
-  fmt::print(stderr, "{}/{}: {} check{}\n", request.history, kHistoryPage, records.size(),
-             records.size() == 1 ? "" : "s");
+  const auto of_this =
+      std::ranges::count_if(records, [&](const CheckRecord& one) { return one.of_model_of(records.back()); });
+  const bool of_others = of_this < std::ssize(records);
+  fmt::print(stderr, "{}/{}: {}{}\n", request.history, kHistoryPage, counted(records.size(), "check"),
+             of_others ? fmt::format(", {} of them by this model", of_this) : "");
 }
 
 /// The finding that the data are of another robot, if nothing else is wrong with them as a whole.
@@ -126,7 +132,10 @@ ExitCode run_check(const CheckRequest& request) {
   fmt::print(stderr, "{}", to_terminal(data_check_entry(shown), ShownFindings::all));
   const std::vector<CheckRecord> history = history_of(request, model);
   const ChangeReport change = instead ? *std::move(instead) : find_change(model, data, suspects(checked.check));
-  if (!request.history.empty()) keep(request, check_record(change, data, model, request.model_file, today()), history);
+  if (!request.history.empty()) {
+    const std::string digest = sha256(read_file(request.model_file));
+    keep(request, check_record(change, data, model, request.model_file, digest, today()), history);
+  }
   fmt::print("{}",
              request.json ? to_json(change, data, request.model_file) : change_text(change, data, request.model_file));
   return change.verdict == ChangeVerdict::changed ? ExitCode::changed : ExitCode::done;

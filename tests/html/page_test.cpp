@@ -14,6 +14,7 @@
 namespace demecal {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
@@ -259,6 +260,13 @@ TEST(ReportPage, IgnoresKeysItDoesNotKnow) {
   json["later"] = {{"anything", 1}};
   json["joints"][0]["later"] = "x";
   EXPECT_EQ(page_of(json), page);
+}
+
+TEST(HistoryOfChecks, BreaksItsLinesWhereTheModelChanges) {
+  std::vector<CheckRecord> records(5);
+  EXPECT_THAT(lines_of(check_history_html(records), "island"), ElementsAre(SizeIs(5)));
+  for (std::size_t i = 0; i < records.size(); ++i) records[i].model_sha256 = i < 2 ? "01" : "02";
+  EXPECT_THAT(lines_of(check_history_html(records), "island"), ElementsAre(SizeIs(2), SizeIs(3)));
 }
 
 TEST(ReportPage, RefusesWhatIsNoReport) {
