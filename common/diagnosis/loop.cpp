@@ -127,16 +127,16 @@ void ClosedLoop::estimate_noise() {
 }
 
 void ClosedLoop::measure_pure_error(const Linearization& linearization) {
-  const auto pure = pure_error(problem_.data, problem_.fitted);
+  if (const auto plain = pure_error(problem_.data, problem_.fitted)) outcome_.repeat_scatter_m = plain->deviation_m;
+  // Repeats by a precise instrument say nothing of what a coarse one leaves: all in units of their station's noise.
+  const auto pure = pure_error(problem_.data, problem_.fitted, model_.scales);
   if (!pure) return;
-  outcome_.repeat_scatter_m = pure->deviation_m;
   const RowMatrix errors = unwhitened(linearization.fitted, linearization.errors);
   double squares = 0.0, freedom = 0.0;
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
-    const MeasuredPose& pose = problem_.data.poses[linearization.fitted.poses[i]];
-    if (!pose.position_m) continue;
     const Eigen::Index first = linearization.fitted.first_row[i];
-    squares += std::pow(model_.scales.factor(pose, kPosition), 2) * errors.middleRows(first, 3).squaredNorm();
+    if (!problem_.data.poses[linearization.fitted.poses[i]].position_m) continue;
+    squares += errors.middleRows(first, 3).squaredNorm();
     freedom += 3.0 - linearization.projection.basis().middleRows(first, 3).squaredNorm();
   }
   squares *= std::pow(model_.scales[kPosition], 2);

@@ -203,7 +203,7 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   return (1.0 + beyond) / (1.0 + draws);
 }
 
-std::optional<PureError> pure_error(const DataSet& data, std::span<const std::size_t> poses) {
+std::optional<PureError> pure_error(const DataSet& data, std::span<const std::size_t> poses, const RowScales& scales) {
   // What repeats from either side differ by is lost motion, and no noise.
   std::map<std::tuple<std::string, std::string, std::string, std::vector<double>>, std::vector<std::size_t>> repeats;
   for (const std::size_t pose : poses) {
@@ -218,7 +218,9 @@ std::optional<PureError> pure_error(const DataSet& data, std::span<const std::si
     if (group.size() < 2) continue;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const std::size_t pose : group) mean += *data.poses[pose].position_m / static_cast<double>(group.size());
-    for (const std::size_t pose : group) error.squares += (*data.poses[pose].position_m - mean).squaredNorm();
+    const double factor = scales.factor(data.poses[group.front()], kPosition);  // of one station
+    for (const std::size_t pose : group)
+      error.squares += ((*data.poses[pose].position_m - mean) / factor).squaredNorm();
     error.freedom += 3.0 * static_cast<double>(group.size() - 1);
   }
   if (error.freedom == 0.0) return std::nullopt;

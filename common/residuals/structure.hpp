@@ -7,6 +7,7 @@
 
 #include "data/data_set.hpp"
 #include "kinematics/chain.hpp"
+#include "parameters/observation.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
@@ -28,8 +29,10 @@ struct PureError {
   double freedom = 0.0;      ///< degrees of freedom, in rows
   double squares = 0.0;      ///< sum of squared deviations of position rows, m^2
 };
-/// Nothing where no pose is repeated.
-std::optional<PureError> pure_error(const DataSet& data, std::span<const std::size_t> poses);
+/// Nothing where no pose is repeated. A pose counts by its station's factor in `scales`: deviations are then those of a
+/// station that is not named.
+std::optional<PureError> pure_error(const DataSet& data, std::span<const std::size_t> poses,
+                                    const RowScales& scales = {});
 
 /// p-value of the lack-of-fit F test: whether position residuals scatter more than repeats do. `squares_m2` is the sum
 /// of squares of the position residuals with `freedom` degrees of freedom.

@@ -146,6 +146,15 @@ TEST(PureError, IsTheScatterOfRepeatsAboutTheirMeans) {
   EXPECT_NEAR(pure->deviation_m, std::sqrt(20e-6 / 9), 1e-12);
 }
 
+TEST(PureError, CountsRepeatsInUnitsOfTheirStation) {
+  DataSet data = repeats({{"A", {0.001, 0, 0}}, {"A", {-0.001, 0, 0}}, {"B", {0, 0.01, 0}}, {"B", {0, -0.01, 0}}});
+  data.poses[2].station = data.poses[3].station = "coarse";
+  RowScales scales;
+  scales.stations = {{"coarse", {10.0, 1.0, 1.0}}};
+  EXPECT_NEAR(pure_error(data, all_poses(data))->squares, 2e-6 + 2e-4, 1e-15);
+  EXPECT_NEAR(pure_error(data, all_poses(data), scales)->squares, 2e-6 + 2e-6, 1e-15);
+}
+
 TEST(PureError, NeedsRepeats) {
   EXPECT_FALSE(pure_error(repeats({{"A", {1, 0, 0}}, {"B", {1, 0, 0}}}), std::vector<std::size_t>{0, 1}).has_value());
   EXPECT_FALSE(pure_error(repeats({{"", {1, 0, 0}}, {"", {1, 0, 0}}}), std::vector<std::size_t>{0, 1}).has_value());
