@@ -15,6 +15,7 @@
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
 #include "fitting/least_squares.hpp"
+#include "fitting/station_scales.hpp"
 #include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
@@ -178,7 +179,7 @@ RowScales scales_of_new_poses(const DataSet& data, const CorrectedRobot& placed,
                               const std::optional<PredictionInterval>& interval) {
   constexpr double kSmallest = 1e-8;
   const auto observations = observe(data, poses, placed);
-  RowScales scales = median_deviations(data, placed, observations);
+  RowScales scales = scales_of_stations(data, placed, observations, median_deviations(data, placed, observations));
   if (mounted_otherwise(data, placed, observations)) scales[kOrientation] = 0.0;
   if (interval && scales[kPosition] > 0.0) {
     const double stated = std::max(kSmallest, std::hypot(interval->noise_m, interval->model_error_m));
@@ -279,6 +280,10 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
       if (update.base_and_tool_only) covariance = little;
     }
     solution = solve(covariance, rows, sizes.noise);
+    // By the rows' medians; told anew in every step, since what the old model errs by hides how instruments differ.
+    if (step + 1 == kSteps) break;
+    const CorrectedRobot present = prior.changed(solution.change);
+    scales.stations = scales_of_stations(data, present, observe(data, used, present), scales).stations;
   }
   for (double& scale : scales) scale *= std::sqrt(sizes.noise);
   update.robot = prior.changed(solution.change);

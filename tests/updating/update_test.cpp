@@ -1,6 +1,7 @@
 // An old model and few new poses: better than base and tool alone where something has changed, and no worse where not.
 #include <gtest/gtest.h>
 
+#include "fitting/stations.hpp"
 #include "lacking_numbers.hpp"
 #include "prediction/measurement.hpp"
 #include "updating/update.hpp"
@@ -38,6 +39,30 @@ TEST(Update, LeavesAnArmAloneThatIsAsItWas) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Outcome outcome = outcome_of(seed, 0.0);
     EXPECT_LT(outcome.updated_mm, 1.1 * outcome.placed_mm) << seed;
+  }
+}
+
+TEST(Update, BelievesAPreciseInstrumentMoreThanACoarseOne) {
+  constexpr double kTimesCoarser = 15.0;
+  for (std::uint64_t seed = 11; seed <= 13; ++seed) {
+    const CalibratedModel model = model_of_wrist(measured_wrist(true_wrist(seed), 60, 30, seed));
+    CorrectedRobot now = true_wrist(seed);
+    now.chain.joints[1].theta_rad += 5e-4;
+    DataSet precise = measured_wrist(now, 20, 0, 600 + seed), coarse = measured_wrist(now, 20, 0, 700 + seed);
+    precise.file = "precise";
+    coarse.file = "coarse";
+    RandomStream random{9302, seed};
+    for (MeasuredPose& pose : coarse.poses)
+      *pose.position_m +=
+          kTimesCoarser * kMeasured_m * Eigen::Vector3d(random.normal(), random.normal(), random.normal());
+    const DataSet data = joined_stations({precise, coarse}, StationTools::shared);
+    const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+    const CorrectedRobot placed =
+        fit_registration(data, poses, {.registration = true, .tool = true}, model.robot).robot;
+    const RowScales scales = updated(model, placed, data, poses, model.declared).fitted.scatter;
+    const double ratio = scales.of(data.poses.back(), kPosition) / scales.of(data.poses.front(), kPosition);
+    EXPECT_GT(ratio, kTimesCoarser / 3) << seed;
+    EXPECT_LT(ratio, kTimesCoarser * 3) << seed;
   }
 }
 
