@@ -156,7 +156,8 @@ std::vector<Finding> find_wrong_kinds(const DataSet& data);
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m);
 
 /// Contacts that moved, and poses that the contact they name does not fit, before it moved or after: those that fit
-/// another one, or that alone name it, as wrong_contact, others as outlier. `robot` predicts the tool.
+/// another one, or that alone name it, as wrong_contact, others as outlier; and planes that are not flat. `robot`
+/// predicts the tool.
 std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRobot& robot);
 
 /// A contact whose poses of one set stand in one place up to some row and in another from there on: a ball or socket

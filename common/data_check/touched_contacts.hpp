@@ -12,6 +12,7 @@
 #include "data_check/searches.hpp"
 #include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "trials/finding.hpp"
 
 namespace demecal::inline data_check {
 
@@ -54,5 +55,9 @@ class TouchedContacts {
   std::vector<Touch> touches_;
   std::set<std::size_t> left_out_;
 };
+
+/// Planes whose calibration touches scatter about them (rms) by three times as much and more as those of the other
+/// contacts do (median), as errors_m() has it. `robot` predicts the tool.
+std::vector<Finding> find_uneven_planes(const TouchedContacts& touched, const CorrectedRobot& robot);
 
 }  // namespace demecal::inline data_check

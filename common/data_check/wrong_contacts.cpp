@@ -71,6 +71,9 @@ class ContactSearch {
     return all;
   }
 
+  /// Without the poses that were found to be wrong.
+  const TouchedContacts& touched() const { return touched_; }
+
  private:
   /// Of the poses that lie far from their own contact and at another one, the one that gains most.
   std::optional<WrongPose> worst_at_another() const {
@@ -257,8 +260,16 @@ class ContactSearch {
 std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRobot& robot) {
   if (!has_contacts(data)) return {};
   const std::vector<MovedContact> moved = find_moved_contacts(data, robot);
-  std::vector<Finding> found = ContactSearch(TouchedContacts(data, robot, moved)).findings();
+  ContactSearch search(TouchedContacts(data, robot, moved));
+  std::vector<Finding> found = search.findings();
   for (const MovedContact& one : moved) found.push_back(of_moved_contact(data, one));
+  for (Finding& uneven : find_uneven_planes(search.touched(), robot)) {
+    const auto of_plane = [&](const std::string& pose) { return std::ranges::count(uneven.poses, pose) > 0; };
+    std::erase_if(found, [&](const Finding& one) {  // its rim is no mistake of the poses there
+      return one.kind == FindingKind::outlier && std::ranges::all_of(one.poses, of_plane);
+    });
+    found.push_back(std::move(uneven));
+  }
   return found;
 }
 

@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 37> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 38> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -45,6 +45,7 @@ constexpr std::array<KindRow, 37> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::typing_error, "typing_error", false},
                                           {FindingKind::wrong_contact, "wrong_contact", false},
                                           {FindingKind::contact_moved, "contact_moved", false},
+                                          {FindingKind::uneven_plane, "uneven_plane", false},
                                           {FindingKind::wrong_kind, "wrong_kind", true},
                                           {FindingKind::wrong_length, "wrong_length", true},
                                           {FindingKind::disagreeing_length, "disagreeing_length", false},

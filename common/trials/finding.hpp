@@ -37,6 +37,7 @@ enum class FindingKind {
   typing_error,
   wrong_contact,
   contact_moved,
+  uneven_plane,
   wrong_kind,
   wrong_length,
   disagreeing_length,

@@ -82,6 +82,41 @@ TEST(TouchedPlates, NameThePlateThatAPoseTouchedInstead) {
   }
 }
 
+/// Two pairs of sockets as before, a flat plate, and one whose rim is so much above its middle.
+DataSet sagging_plate_data(std::uint64_t seed, double sag_m) {
+  constexpr double kHalf_m = 0.15, kPlay_m = 4e-5;
+  constexpr int kTouches = 16;
+  DataSet sockets = plate_data(seed, kTouches, 0);
+  RandomStream stream{seed, 1};
+  KnownArm arm = perfect_arm(seven_joint_arm(), Frame::base);
+  RandomStream as_before{seed};
+  misbuild(arm, as_before, {.joint_offset = true, .geometry = true});
+  for (int i = 0; i < kTouches; ++i) {
+    const Eigen::Vector2d off_m(stream.real(-kHalf_m, kHalf_m), stream.real(-kHalf_m, kHalf_m));
+    const double height_m = sag_m * off_m.squaredNorm() / (2.0 * kHalf_m * kHalf_m);
+    touch(arm, stream, "top", Eigen::Vector3d(0.4 + off_m.x(), 0.05 + off_m.y(), 0.35 + height_m), 1, kPlay_m);
+    arm.data.poses.back().contact_kind = ContactKind::plane;
+    arm.data.poses.back().pose_id = "top-" + std::to_string(i);
+    sockets.poses.push_back(arm.data.poses.back());
+  }
+  sockets.contacts.forms["top"].kind = ContactKind::plane;
+  return sockets;
+}
+
+TEST(TouchedPlates, AreNamedWhereTheyAreNotFlat) {
+  for (std::uint64_t seed = 9961; seed < 9967; ++seed) {
+    EXPECT_THAT(check_data(sagging_plate_data(seed, 0.0)).findings, IsEmpty()) << seed;
+    DataSet data = sagging_plate_data(seed, 2e-3);
+    const std::vector<Finding> found = check_data(data).findings;
+    ASSERT_EQ(found.size(), 1u) << seed;
+    EXPECT_EQ(found[0].kind, FindingKind::uneven_plane);
+    EXPECT_THAT(found[0].sentence, HasSubstr("Plane 'top' is not flat"));
+    data.contacts.forms["top"].flatness_m = 2e-3;
+    weigh_by_flatness(data);
+    EXPECT_THAT(check_data(data).findings, IsEmpty()) << seed;
+  }
+}
+
 TEST(TouchedPlates, NameNoPoseForTheFlatnessThatIsStated) {
   DataSet data = plate_data(9951, 14, 4, 8e-4);
   EXPECT_EQ(check_data(data).findings.size(), 1u);
