@@ -261,10 +261,14 @@ class KrlReader {
 };
 
 std::string krl_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
-  if (!has_six_revolute_joints(arm)) return {};
   std::string text = "DEF measure( )\n";
   for (const ProgrammedStop& stop : stops) {
-    text += "  PTP {" + joints_text(arm, stop.joints, ",", numbered_names("A", arm.size())) + "} ; " + stop.name + '\n';
+    const auto carried = carried_stop(arm, stop.joints);
+    if (!carried) return {};
+    std::string axes = joints_text(carried->arm, carried->joints, ",", numbered_names("A", carried->arm.size()));
+    int rail = 0;
+    for (const std::string& place : rail_texts(*carried)) axes += ",E" + std::to_string(++rail) + ' ' + place;
+    text += "  PTP {" + axes + "} ; " + stop.name + '\n';
     if (stop.waits) text += "  HALT\n";
   }
   return text + "END\n";

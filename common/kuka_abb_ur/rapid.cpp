@@ -228,11 +228,15 @@ class RapidReader {
 };
 
 std::string rapid_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
-  if (!has_six_revolute_joints(arm)) return {};
+  constexpr std::size_t kExternalAxes = 6;
   std::string targets, moves;
   for (const ProgrammedStop& stop : stops) {
-    targets += "  CONST jointtarget " + stop.name + ":=[[" + joints_text(arm, stop.joints, ",") +
-               "],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n";
+    const auto carried = carried_stop(arm, stop.joints);
+    if (!carried) return {};
+    std::vector<std::string> external = rail_texts(*carried);
+    external.resize(std::max(external.size(), kExternalAxes), "9E+09");
+    targets += "  CONST jointtarget " + stop.name + ":=[[" + joints_text(carried->arm, carried->joints, ",") + "],[" +
+               joined_words(external, ",") + "]];\n";
     moves += "    MoveAbsJ " + stop.name + ",v100,fine,tool0;\n";
     if (stop.waits) moves += "    Stop;\n";
   }

@@ -1,6 +1,6 @@
 // Kawasaki AS: the locations of .TRANS (x, y, z in mm and O, A, T in degrees, turns about z, the new y and the new z)
 // and of .JOINTS (a number per joint), and those that programs write as TRANS(...) and #PPOINT(...). Numbers of
-// external axes behind them are kept.
+// external axes behind them are kept; the first of joints are the rails that carry the arm, as many as it has.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -34,6 +34,9 @@ constexpr std::array<CellUnit, 6> kTransUnits{kMillimetres, kMillimetres, kMilli
                                               kOatAngle,    kOatAngle,    kOatAngle};
 
 enum class AsSection { none, program, transformations, joints, system };
+/// Makers' public manuals do not say whether transformations are counted from the rail's base or move along with it.
+constexpr const char* kOnRail = "a rail carries the arm, and it is not told whether the pose moves along with it";
+
 
 AsSection section_of(const std::string& word) {
   if (word == ".program") return AsSection::program;
@@ -46,7 +49,7 @@ class AsReader {
  public:
   explicit AsReader(const ReaderInput& input)
       : text_(input.source, {.comment = ';'}), code_(text_.code()), arm_(input.arm), controller_(input.controller) {
-    require_six_joints(input.arm, input.source.file(), "Kawasaki's AS");
+    rails_ = static_cast<std::size_t>(rails_of(input.arm, input.source.file(), "Kawasaki's AS"));
   }
 
   Program read() {
@@ -130,12 +133,17 @@ class AsReader {
       text_.fail(std::min(begin, code_.size()), 1, target.name + ' ' + rule);
     }
     numbers.resize(needed);
-    const std::vector<CellUnit> units =
-        of_joints ? joint_units(arm_) : std::vector<CellUnit>(kTransUnits.begin(), kTransUnits.end());
-    const auto cells = cells_of(text_, numbers, units, required, program_, target);
+    std::vector<CellUnit> units(kTransUnits.begin(), kTransUnits.end());
+    if (of_joints) {  // the six that turn come first, the rails' behind them
+      units = joint_units(arm_, static_cast<int>(rails_));
+      units.resize(needed, kMillimetres);
+    }
+    auto cells = cells_of(text_, numbers, units, required, program_, target);
     if (!cells) return;
     if (of_joints) {
-      target.joints = *cells;
+      const auto behind = cells->end() - static_cast<std::ptrdiff_t>(rails_);
+      target.carried.assign(behind, cells->end());
+      target.joints.assign(cells->begin(), behind);
     } else {
       target.position.assign(cells->begin(), cells->begin() + 3);
       target.orientation.assign(cells->begin() + 3, cells->end());
@@ -216,6 +224,7 @@ class AsReader {
       for (TargetUse& use : uses) use.frames = statements_.frames_at(use.begin, pose, lookup);
       if (!uses.empty()) take_uses(uses, target);
       kept.push_back(std::move(target));
+      if (rails_ > 0 && pose) target.frames.unknown_frame = kOnRail;
     }
     program_.targets = std::move(kept);
   }
@@ -225,16 +234,20 @@ class AsReader {
   const Chain& arm_;
   const ControllerData& controller_;
   Program program_;
+  std::size_t rails_ = 0;
   AsSection section_ = AsSection::none;
   AsStatements statements_{text_};
 };
 
 std::string as_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
-  if (!has_six_revolute_joints(arm)) return {};
   std::string motions, points;
   for (const ProgrammedStop& stop : stops) {
     motions += "  JMOVE #" + stop.name + "\n  BREAK\n" + (stop.waits ? "  PAUSE\n" : "");
-    points += '#' + stop.name + "  " + joints_text(arm, stop.joints, "  ") + '\n';
+    const auto carried = carried_stop(arm, stop.joints);
+    if (!carried) return {};
+    points += '#' + stop.name + "  " + joints_text(carried->arm, carried->joints, "  ");
+    for (const std::string& place : rail_texts(*carried)) points += "  " + place;
+    points += '\n';
   }
   return ".PROGRAM measure()\n" + motions + ".END\n.JOINTS\n" + points + ".END\n";
 }

@@ -124,6 +124,8 @@ ExitCode run_plan(const PlanCommand& command) {
   const PlanRequest request = plan_request(command);
   const Plan plan = make_plan(request);
   std::vector<NamedText> files = files_of(plan, request, command);
+  if (const std::string left_out = programs_left_out(plan, request.robot.chain); !left_out.empty())
+    fmt::print(stderr, "{}: {}\n", command.robot_file, left_out);
   std::vector<std::string> names;
   for (const NamedText& file : files) names.push_back(file.name);
   names.emplace_back("plan.json");
