@@ -14,6 +14,7 @@
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "kuka_abb_ur/krl_frames.hpp"
+#include "kuka_abb_ur/krl_loads.hpp"
 #include "kuka_abb_ur/krl_statements.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
@@ -283,7 +284,7 @@ Language krl_language() {
           .signs = {"e6pos", "e6axis", "defdat", "&access", "ptp {", "lin {"},
           .comment = ";",
           .headers = {"def ", "defdat", "deffct", "global def"},
-          .payload_statements = {"$load=", "$load."},
+          .payload_statements = {{"$load=", stated_load_kg}, {"$load.", changed_load_kg}},
           .of_several_files = true,
           .companions = {{"src", "dat"}, {"dat", "src"}},
           .read = [](const ReaderInput& input) { return KrlReader(input).read(); },

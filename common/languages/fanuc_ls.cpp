@@ -292,7 +292,7 @@ Language fanuc_ls_language() {
           .comment_end = " ;",
           .longest_comment = 31,  // a remark has 32 letters at most
           .headers = {"/mn"},
-          .payload_statements = {"payload["},
+          .payload_statements = {{.begin = "payload["}},
           .read = [](const ReaderInput& input) { return FanucReader(input).read(); },
           .write = fanuc_text};
 }

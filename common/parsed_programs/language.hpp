@@ -63,9 +63,10 @@ struct Language {
   std::string_view comment_end{};                 ///< what a comment must end with; empty: the end of its line
   std::size_t longest_comment = 1000;             ///< letters that a comment may have; longer ones take several lines
   std::vector<std::string_view> headers{};  ///< how lines begin, in small letters, that comments must stand behind
-  /// How lines begin that tell the controller what the arm carries, in small letters: a word and the sign behind it,
-  /// or a blank where an argument follows.
-  std::vector<std::string_view> payload_statements{};
+  /// How lines begin, in small letters, that stand in programs of this language also where these have neither a motion
+  /// nor a point.
+  std::vector<std::string_view> openings{};
+  std::vector<PayloadWords> payload_statements{};
   /// Whether a program may be several files, read as one text.
   bool of_several_files = false;
   /// The ending of the file of the same name that usually belongs to a program of this ending: {"src", "dat"}.

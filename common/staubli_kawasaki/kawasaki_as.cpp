@@ -20,6 +20,7 @@
 #include "parsed_programs/given_numbers.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
+#include "parsed_programs/payload_values.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/kawasaki_as_program.hpp"
@@ -33,10 +34,10 @@ constexpr CellUnit kOatAngle{std::numbers::pi / 180.0, kDecimalsDeg};
 constexpr std::array<CellUnit, 6> kTransUnits{kMillimetres, kMillimetres, kMillimetres,
                                               kOatAngle,    kOatAngle,    kOatAngle};
 
-enum class AsSection { none, program, transformations, joints, system };
 /// Makers' public manuals do not say whether transformations are counted from the rail's base or move along with it.
 constexpr const char* kOnRail = "a rail carries the arm, and it is not told whether the pose moves along with it";
 
+enum class AsSection { none, program, transformations, joints, system };
 
 AsSection section_of(const std::string& word) {
   if (word == ".program") return AsSection::program;
@@ -223,8 +224,8 @@ class AsReader {
         if (!given.at(name, use.begin, way)) program_.joints_lost_at.push_back(use.begin);
       for (TargetUse& use : uses) use.frames = statements_.frames_at(use.begin, pose, lookup);
       if (!uses.empty()) take_uses(uses, target);
-      kept.push_back(std::move(target));
       if (rails_ > 0 && pose) target.frames.unknown_frame = kOnRail;
+      kept.push_back(std::move(target));
     }
     program_.targets = std::move(kept);
   }
@@ -233,8 +234,8 @@ class AsReader {
   std::string_view code_;
   const Chain& arm_;
   const ControllerData& controller_;
-  Program program_;
   std::size_t rails_ = 0;
+  Program program_;
   AsSection section_ = AsSection::none;
   AsStatements statements_{text_};
 };
@@ -242,9 +243,9 @@ class AsReader {
 std::string as_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
   std::string motions, points;
   for (const ProgrammedStop& stop : stops) {
-    motions += "  JMOVE #" + stop.name + "\n  BREAK\n" + (stop.waits ? "  PAUSE\n" : "");
     const auto carried = carried_stop(arm, stop.joints);
     if (!carried) return {};
+    motions += "  JMOVE #" + stop.name + "\n  BREAK\n" + (stop.waits ? "  PAUSE\n" : "");
     points += '#' + stop.name + "  " + joints_text(carried->arm, carried->joints, "  ");
     for (const std::string& place : rail_texts(*carried)) points += "  " + place;
     points += '\n';
@@ -261,7 +262,8 @@ Language kawasaki_as_language() {
           .signs = {".trans", ".joints"},
           .other_endings = {"pg"},
           .comment = ".*",
-          .payload_statements = {"weight "},
+          .openings = {".program", ".sysdata", ".reals", ".strings", ".netconf"},
+          .payload_statements = {{"weight ", number_argument}},
           .of_several_files = true,
           .read = [](const ReaderInput& input) { return AsReader(input).read(); },
           .write = as_text};
