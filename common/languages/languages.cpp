@@ -183,6 +183,25 @@ Program read_program(const Language& language, const ProgramSource& source, cons
   return program;
 }
 
+void require_program(const Language& language, const ProgramSource& source, const Program& program) {
+  if (!program.targets.empty() || !program.uncorrected.empty() || !program.joints_lost_at.empty()) return;
+  if (language.headers.empty() && language.openings.empty()) return;  // its reader refuses what is none
+  const std::string text = lower_case(source.text());
+  std::vector<std::string> words(language.headers.begin(), language.headers.end());
+  words.insert(words.end(), language.openings.begin(), language.openings.end());
+  for (std::size_t begin = 0; begin < text.size(); begin = next_line(text, begin)) {
+    const std::size_t first = std::min(text.find_first_not_of(" \t", begin), text.size());
+    const std::string_view line = std::string_view(text).substr(first);
+    if (std::ranges::any_of(words, [&](const std::string& word) { return line.starts_with(word); })) return;
+  }
+  words.insert(words.end(), language.signs.begin(), language.signs.end());
+  if (std::ranges::any_of(language.signs, [&](std::string_view sign) { return text.find(sign) != text.npos; })) return;
+  throw InputError({source.file(), 0}, "",
+                   "is no program in " + std::string(language.title) +
+                       ": it holds no motion, no point and no line by which such programs are known (" +
+                       joined_words(words, ", ") + "); give the program, or name its language with --language");
+}
+
 Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm) {
   return read_program(language, ProgramSource(text, file), arm);
 }

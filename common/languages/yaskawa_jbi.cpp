@@ -288,6 +288,7 @@ Language yaskawa_jbi_language() {
           .comment = "'",
           .longest_comment = 31,  // a comment has 32 letters at most
           .headers = {"nop"},
+          .openings = {"/job"},
           .read = [](const ReaderInput& input) { return JobReader(input).read(); }};
 }
 

@@ -266,7 +266,12 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
         "validation poses: they may be too small");
   if (model.posterior && model.interval && model.interval->along_path)
     sentences.emplace_back("the radii that hold 95 % (± ... mm): " + std::string(kAlongPathRemark));
-  if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
+  if (program.targets.empty()) {
+    const bool moves = !program.uncorrected.empty() || !program.joints_lost_at.empty();
+    sentences.emplace_back(
+        moves ? "no targets were found that can be corrected"
+              : "it holds no motion and no point: there is nothing to correct, and it is written as it was");
+  }
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
   if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {
     sentences.emplace_back(
