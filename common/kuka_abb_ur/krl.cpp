@@ -79,6 +79,8 @@ class KrlReader {
       const std::string carried = std::exchange(target.frames.unknown_frame, "");
       frames.complete(target);
       if (!carried.empty()) target.frames.unknown_frame = carried;
+      if (rails_ > 0 && target.is_pose() && target.frames.frame == kKrlRobotRoot)
+        target.frames.unknown_frame = "$ROBROOT may move along with the rail";
     }
     const KrlStatements statements(text_, program_);
     frames.note_routines(program_);
