@@ -72,10 +72,7 @@ std::string JobBaseAxes::take(const std::string& key, const std::set<std::string
   if (named.size() > 1) return "motions to it name different positions of the base axis" + where;
   const auto found = positions_.find(named.empty() ? 'B' + key : *named.begin());
   if (found == positions_.end() || found->second.empty())
-    return "no position of the base axis (BC) that the job gives in mm, or in pulses of which it is known how many a "
-           "mm "
-           "has, says with it" +
-           where;
+    return "no BC that the job gives in mm, or in pulses with pulses_per_deg stated, goes with it" + where;
   target.carried = found->second;
   return "";
 }

@@ -34,7 +34,7 @@ constexpr CellUnit kOatAngle{std::numbers::pi / 180.0, kDecimalsDeg};
 constexpr std::array<CellUnit, 6> kTransUnits{kMillimetres, kMillimetres, kMillimetres,
                                               kOatAngle,    kOatAngle,    kOatAngle};
 
-/// Makers' public manuals do not say whether transformations are counted from the rail's base or move along with it.
+/// Public documentation leaves open whether transformations are counted from the rail's base or move along with it.
 constexpr const char* kOnRail = "a rail carries the arm, and it is not told whether the pose moves along with it";
 
 enum class AsSection { none, program, transformations, joints, system };
