@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kCoarsestDigit_deg = 1.0, kCoarseDigit_deg = 0.1;
 constexpr double kCoarsestDigit_mm = 1.0, kCoarseDigit_mm = 0.1;
+constexpr double kCoarsestDigit_rad = 1e-2, kCoarseDigit_rad = 1e-3;
 constexpr double kSlack = 1e-6;
 
 /// The place of the last digit that values of this step need, at most `coarsest`: those that were sent to round values
@@ -27,6 +28,20 @@ double digit(double step, double coarsest, double coarse) {
 
 }  // namespace
 
+void PendantRounding::set_angle_digit(const Chain& chain, const std::vector<JointVector>& joints) {
+  std::vector<double> angles;
+  for (const JointVector& one : joints) {
+    for (int joint = 0; joint < chain.size(); ++joint) {
+      if (is_revolute(chain, joint)) angles.push_back(one[joint]);
+    }
+  }
+  if (angles.empty()) return;
+  const double in_deg_rad = decimal_step(angles, radians(1.0)), in_rad = decimal_step(angles, 1.0);
+  in_radians_ = in_rad > in_deg_rad;
+  step_rad_ = in_radians_ ? digit(in_rad, kCoarsestDigit_rad, kCoarseDigit_rad)
+                          : radians(digit(degrees(in_deg_rad), kCoarsestDigit_deg, kCoarseDigit_deg));
+}
+
 PendantRounding::PendantRounding(const DataSet& data) {
   const Chain& chain = data.robot.chain;
   std::vector<JointVector> joints;
@@ -37,7 +52,7 @@ PendantRounding::PendantRounding(const DataSet& data) {
   }
   const JointSteps steps = joint_steps(chain, joints);
   const auto turning = std::ranges::count_if(chain.joints, [](const Joint& joint) { return is_revolute(joint); });
-  if (turning > 0) step_rad_ = radians(digit(degrees(steps.angle_rad), kCoarsestDigit_deg, kCoarseDigit_deg));
+  set_angle_digit(chain, joints);
   if (turning < chain.size()) slide_m_ = metres(digit(millimetres(steps.slide_m), kCoarsestDigit_mm, kCoarseDigit_mm));
   position_m_ = metres(digit(millimetres(decimal_step(positions, metres(1.0))), kCoarsestDigit_mm, kCoarseDigit_mm));
   if (step_rad_ + slide_m_ + position_m_ == 0.0) return;
@@ -86,13 +101,12 @@ std::string PendantRounding::sentence() const {
   const auto add = [&](const char* what, double step, const char* unit) {
     if (step > 0.0) written += fmt::format("{}{} to {:g} {}", written.empty() ? "" : ", ", what, step, unit);
   };
-  add("angles", degrees(step_rad_), "deg");
+  add("angles", in_radians_ ? step_rad_ : degrees(step_rad_), in_radians_ ? "rad" : "deg");
   add("sliding joints", millimetres(slide_m_), "mm");
   add("positions", millimetres(position_m_), "mm");
   return fmt::format(
       "The readings are rounded ({}), which alone puts points {:.2g} mm off (rms), {:.2g} mm at most: lengths and "
-      "tools "
-      "that differ by less, and zeros that differ by less than {:.2g} deg, are not told. Read off more digits.",
+      "tools that differ by less, and zeros that differ by less than {:.2g} deg, are not told. Read off more digits.",
       written, millimetres(typical_m()), millimetres(*std::ranges::max_element(most_m_)), degrees(told_rad()));
 }
 

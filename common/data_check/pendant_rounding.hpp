@@ -11,8 +11,9 @@
 
 namespace demecal::inline data_check {
 
-/// Where all joints are written to a tenth of a degree or whole degrees, or positions to a tenth of a millimetre or
-/// more, points may stand off by what these digits leave; else by kPendantRounding_m.
+/// Where all joints are written to a tenth of a degree or whole degrees, to a thousandth or a hundredth of a radian, or
+/// positions to a tenth of a millimetre or more (a millimetre: metres of three decimals), points may stand off by what
+/// these digits leave; else by kPendantRounding_m.
 class PendantRounding {
  public:
   explicit PendantRounding(const DataSet& data);
@@ -33,6 +34,9 @@ class PendantRounding {
   std::string sentence() const;
 
  private:
+  void set_angle_digit(const Chain& chain, const std::vector<JointVector>& joints);
+
+  bool in_radians_ = false;                                   ///< angles are written so
   double step_rad_ = 0.0, slide_m_ = 0.0, position_m_ = 0.0;  ///< 0: written finer
   std::vector<double> rms_m_, most_m_;                        ///< of each pose
   bool believed_ = false;

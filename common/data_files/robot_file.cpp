@@ -12,8 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "data/link_inertia.hpp"
 #include "data/payload.hpp"
 #include "data/text.hpp"
+#include "data_files/link_inertias.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/drawn_arm.hpp"
@@ -31,8 +33,9 @@ constexpr double kMostGravity_mps2 = 20.0;  // beyond it stands a mistaken unit,
 std::vector<LinkMass> read_masses(const YamlNode& links, std::size_t joints) {
   std::vector<LinkMass> masses;
   for (const YamlNode& link : links.list(joints)) {
-    link.with_keys({"mass_kg", "com_mm"});
+    link.with_keys({"mass_kg", "com_mm", "inertia_kgm2"});
     masses.push_back({link.at("mass_kg").non_negative(), metres(1.0) * link.at("com_mm").vector3()});
+    read_link_inertia(link);  // refused where no body has it
   }
   return masses;
 }
@@ -183,6 +186,10 @@ Robot load_robot(const std::filesystem::path& path) {
 }
 
 std::string robot_text(const Robot& robot, int indent) {
+  return robot_text(robot, LinkInertias{}, indent);
+}
+
+std::string robot_text(const Robot& robot, const LinkInertias& inertias, int indent) {
   const std::string margin(static_cast<std::size_t>(indent), ' ');
   const DrawnArm drawing = drawing_of(robot);
   std::ostringstream text;
@@ -197,7 +204,9 @@ std::string robot_text(const Robot& robot, int indent) {
   if (!robot.masses.empty()) text << margin << "links:\n";
   for (std::size_t i = 0; i < robot.masses.size(); ++i) {
     text << margin << "  - {mass_kg: " << number_text(robot.masses[i].mass_kg)
-         << ", com_mm: " << yaml_mm(drawing.centres_m.at(i)) << "}\n";
+         << ", com_mm: " << yaml_mm(drawing.centres_m.at(i));
+    if (i < inertias.size() && inertias[i]) text << ", inertia_kgm2: " << yaml_numbers(matrix_elements(*inertias[i]));
+    text << "}\n";
   }
   text << margin << "gravity_mps2: " << yaml_numbers({robot.gravity_mps2.data(), 3}) << '\n';
   if (robot.repeatability_m) text << margin << "repeatability_mm: " << millimetres_text(*robot.repeatability_m) << '\n';

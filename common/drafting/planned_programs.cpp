@@ -1,7 +1,11 @@
 #include "drafting/planned_programs.hpp"
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
+#include "data/text.hpp"
+#include "kinematics/chain.hpp"
 #include "languages/languages.hpp"
 #include "planning/way.hpp"
 
@@ -34,6 +38,18 @@ std::string planned_program(const Plan& plan, const Chain& arm, const Language& 
   if (const std::string by_hand = poses_by_hand(plan); !by_hand.empty())
     text = with_mark(text, language, "Left out, as no free way was found there: " + by_hand);
   return with_mark(text, language, "Drive to " + stops.front().name + " by hand first: the way there was not checked");
+}
+
+std::string programs_left_out(const Plan& plan, const Chain& arm) {
+  if (programmed_stops(plan).empty()) return "";
+  std::vector<std::string> titles;
+  for (const Language& language : all_languages()) {
+    if (language.write != nullptr && planned_program(plan, arm, language).empty()) titles.emplace_back(language.title);
+  }
+  if (titles.empty()) return "";
+  return "no program is written in " + listed_words(titles, "and") +
+         ", whose targets cannot state the joints of this arm: " + std::to_string(arm.size()) + ", of which " +
+         (is_revolute(arm, 0) ? "the first turns" : "the first slides, as a rail does");
 }
 
 }  // namespace demecal::inline drafting

@@ -18,7 +18,7 @@ joints:                    # from the base on; the figures below are an example:
 # couplings:               # joints whose drives the controller also turns by another's command, as joint 3 of a FANUC
 #   - {joint: 3, from: 2, factor: 1}
 # links:                   # one a joint: masses for effects of gravity, centres of mass in each link's own frame
-#   - {mass_kg: 20, com_mm: [0, 0, 100]}
+#   - {mass_kg: 20, com_mm: [0, 0, 100]}   # and, where known, inertia_kgm2: [ixx, ixy, ixz, iyy, iyz, izz] about it
 # gravity_mps2: [0, 0, -9.81]   # in the base frame: other for a wall, a ceiling or a tilted base
 # repeatability_mm: 0.05   # the maker's
 # payload_kg: 10           # the most that the arm carries: data and programs with more are named

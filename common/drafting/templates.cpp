@@ -11,6 +11,7 @@
 
 #include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "data_files/link_inertias.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/draft_data_set.hpp"
 #include "drafting/template_texts.hpp"
@@ -203,7 +204,7 @@ ImportedRobot import_urdf(const ImportRequest& request) {
   text << yaml_comment("Imported from " + std::filesystem::path(request.file).filename().string() + ": from link " +
                        arm.base + " to link " + arm.tip);
   for (const std::string& note : arm.notes) text << yaml_comment("Check: " + note);
-  text << "demecal_robot: 1\n" << robot_text(robot);
+  text << "demecal_robot: 1\n" << robot_text(robot, arm.inertias);
   read_robot(parse_yaml(text.str(), request.beside));  // what would be refused is not written
   return {text.str(), arm.notes, arm.base, arm.tip};
 }

@@ -14,6 +14,7 @@
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "kuka_abb_ur/krl_frames.hpp"
+#include "kuka_abb_ur/krl_loads.hpp"
 #include "kuka_abb_ur/krl_statements.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
@@ -78,6 +79,8 @@ class KrlReader {
       const std::string carried = std::exchange(target.frames.unknown_frame, "");
       frames.complete(target);
       if (!carried.empty()) target.frames.unknown_frame = carried;
+      if (rails_ > 0 && target.is_pose() && target.frames.frame == kKrlRobotRoot)
+        target.frames.unknown_frame = "$ROBROOT may move along with the rail";
     }
     const KrlStatements statements(text_, program_);
     frames.note_routines(program_);
@@ -261,10 +264,14 @@ class KrlReader {
 };
 
 std::string krl_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
-  if (!has_six_revolute_joints(arm)) return {};
   std::string text = "DEF measure( )\n";
   for (const ProgrammedStop& stop : stops) {
-    text += "  PTP {" + joints_text(arm, stop.joints, ",", numbered_names("A", arm.size())) + "} ; " + stop.name + '\n';
+    const auto carried = carried_stop(arm, stop.joints);
+    if (!carried) return {};
+    std::string axes = joints_text(carried->arm, carried->joints, ",", numbered_names("A", carried->arm.size()));
+    int rail = 0;
+    for (const std::string& place : rail_texts(*carried)) axes += ",E" + std::to_string(++rail) + ' ' + place;
+    text += "  PTP {" + axes + "} ; " + stop.name + '\n';
     if (stop.waits) text += "  HALT\n";
   }
   return text + "END\n";
@@ -279,7 +286,7 @@ Language krl_language() {
           .signs = {"e6pos", "e6axis", "defdat", "&access", "ptp {", "lin {"},
           .comment = ";",
           .headers = {"def ", "defdat", "deffct", "global def"},
-          .payload_statements = {"$load=", "$load."},
+          .payload_statements = {{"$load=", stated_load_kg}, {"$load.", changed_load_kg}},
           .of_several_files = true,
           .companions = {{"src", "dat"}, {"dat", "src"}},
           .read = [](const ReaderInput& input) { return KrlReader(input).read(); },

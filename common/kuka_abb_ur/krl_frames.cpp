@@ -82,6 +82,11 @@ bool is_line(const std::string& word) {
   return points_of_krl_motion(word) > 0 && word != "ptp" && word != "sptp";
 }
 
+/// Of bases, which count in the world, where a statement sets where the robot stands there.
+KnownFrame world_is_unknown() {
+  return KnownFrame::computed("$ROBROOT, which places the robot in the world,");
+}
+
 }  // namespace
 
 KrlFrames::KrlFrames(const ProgramText& text, const ControllerData& controller) : text_(text), controller_(controller) {
@@ -147,6 +152,7 @@ void KrlFrames::read_data(std::size_t begin, std::size_t end) {
 }
 
 KnownFrame KrlFrames::numbered(bool of_tool, int number) const {
+  if (!of_tool && root_moved_) return world_is_unknown();
   const std::string name = numbered_name(of_tool, number);
   if (number == 0) return {of_tool ? "flange" : "base", Eigen::Isometry3d::Identity(), ""};
   if (changed_.contains({of_tool, number}) || changed_.contains({of_tool, kAnyNumber}))
@@ -173,12 +179,16 @@ KnownFrame KrlFrames::base_of(const FrameNumbers& numbers) const {
 /// What stands behind "$TOOL =" or "$BASE =".
 KnownFrame KrlFrames::assigned(std::size_t at_value, const std::string& what) const {
   const std::size_t begin = text_.skip_spaces(at_value);
+  if (root_moved_ && what == "$BASE" && text_.word_at(begin) != "$robroot") return world_is_unknown();
   if (text_.next(begin) == '{') {
     const auto frame = frame_of(text_, read_list(text_, begin, '{'));
     return frame ? KnownFrame{what, *frame, ""} : KnownFrame::computed(what);
   }
   const std::string word = text_.word_at(begin);
   const std::size_t after = text_.skip_spaces(begin + word.size());
+  // The robot stands there, wherever that is in the world.
+  if (word == "$robroot" && what == "$BASE" && text_.next(after) != ':')
+    return {kKrlRobotRoot, Eigen::Isometry3d::Identity(), ""};
   if (is_null_frame(text_, begin) || (word == "$world" && text_.next(after) != ':'))
     return {std::string(text_.code().substr(begin, word.size())), Eigen::Isometry3d::Identity(), ""};
   if ((word == "tool_data" || word == "base_data") && text_.next(after) == '[') {
@@ -249,7 +259,11 @@ void KrlFrames::read_statement(std::size_t begin, std::size_t end) {
   if (word == "$ipo_mode" && text_.next(end) == '=')
     tool_beside_ = tool_beside_ ||
                    !lower_case(text_.code().substr(text_.skip_spaces(text_.skip_spaces(end) + 1))).starts_with("#base");
-  if (word == "$robroot" && text_.next(end) != ',') flow_.set_frame(begin, KnownFrame::computed("$ROBROOT"));
+  const std::size_t before = begin == 0 ? text_.code().npos : text_.code().find_last_not_of(" \t", begin - 1);
+  const bool is_read = before != text_.code().npos && text_.code()[before] == '=';
+  const bool moves_root = word == "$robroot" && text_.next(end) != ',' && !is_read;
+  if (moves_root) flow_.set_frame(begin, KnownFrame::computed("$ROBROOT"));
+  root_moved_ = root_moved_ || moves_root;
   if (word == "fdat_act" && text_.next(end) == '.') {
     flow_.set_tool(begin, KnownFrame::computed("the tool of FDAT_ACT"));
     flow_.set_frame(begin, KnownFrame::computed("the base of FDAT_ACT"));

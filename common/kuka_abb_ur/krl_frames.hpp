@@ -15,6 +15,9 @@
 
 namespace demecal::inline kuka_abb_ur {
 
+/// The frame of `$BASE=$ROBROOT`.
+inline constexpr const char* kKrlRobotRoot = "$ROBROOT";
+
 /// What holds where: $TOOL and $BASE set to numbers or to TOOL_DATA[n] and BASE_DATA[n] of the file, BAS(#TOOL, n),
 /// FDAT_ACT, and for targets that no motion of the file names, the FDAT that goes with them by name (XP1 and FP1).
 /// Number 0 is the flange and the base. Branches, loops, jumps and calls of routines of the files are followed.
@@ -68,6 +71,7 @@ class KrlFrames {
   };
   std::vector<With> with_;
   bool tool_beside_ = false;                  ///< $IPO_MODE may let it stand beside the robot
+  bool root_moved_ = false;                   ///< the program has set $ROBROOT
   std::map<std::size_t, std::string> calls_;  ///< of routines, where they stand
   std::set<std::size_t> believed_;            ///< calls that targets' frames were believed through
   struct PointUse {

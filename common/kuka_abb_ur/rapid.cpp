@@ -18,6 +18,7 @@
 #include "kuka_abb_ur/rapid_way.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
+#include "parsed_programs/payload_values.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -227,12 +228,22 @@ class RapidReader {
   bool offsets_axes_ = false;  ///< by EOffsOn or EOffsSet
 };
 
+/// Of the loaddata that GripLoad names: load0, which every controller has, or one that the program declares.
+std::optional<double> grip_load_kg(std::string_view code, std::size_t at) {
+  const std::string_view name = load_name(code, at);
+  return name == "load0" ? std::optional(0.0) : declared_load_kg(code, name, ":=", "[");
+}
+
 std::string rapid_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
-  if (!has_six_revolute_joints(arm)) return {};
+  constexpr std::size_t kExternalAxes = 6;
   std::string targets, moves;
   for (const ProgrammedStop& stop : stops) {
-    targets += "  CONST jointtarget " + stop.name + ":=[[" + joints_text(arm, stop.joints, ",") +
-               "],[9E+09,9E+09,9E+09,9E+09,9E+09,9E+09]];\n";
+    const auto carried = carried_stop(arm, stop.joints);
+    if (!carried) return {};
+    std::vector<std::string> external = rail_texts(*carried);
+    external.resize(std::max(external.size(), kExternalAxes), "9E+09");
+    targets += "  CONST jointtarget " + stop.name + ":=[[" + joints_text(carried->arm, carried->joints, ",") + "],[" +
+               joined_words(external, ",") + "]];\n";
     moves += "    MoveAbsJ " + stop.name + ",v100,fine,tool0;\n";
     if (stop.waits) moves += "    Stop;\n";
   }
@@ -248,7 +259,8 @@ Language rapid_language() {
           .signs = {"robtarget", "jointtarget", "endmodule"},
           .comment = "!",
           .headers = {"module"},
-          .payload_statements = {"gripload "},
+          .openings = {"proc ", "%%%"},
+          .payload_statements = {{"gripload ", grip_load_kg}},
           .of_several_files = true,
           .read = [](const ReaderInput& input) { return RapidReader(input).read(); },
           .write = rapid_text};

@@ -1,6 +1,5 @@
 // Universal Robots URScript: what movej, movel, movep, movec, servoj and servoc are sent to, as p[...] or [...], there
 // or in the variable they name, inside get_inverse_kin() and in a feature, pose_trans(feature, p[...]).
-#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -19,6 +18,7 @@
 #include "kuka_abb_ur/urscript_way.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
+#include "parsed_programs/payload_values.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -289,7 +289,10 @@ Language urscript_language() {
           .file_endings = {"script", "urscript"},
           .signs = {"movej", "movel(", "movep("},
           .comment = "#",
-          .payload_statements = {"set_payload(", "set_payload_mass(", "set_target_payload("},
+          .openings = {"def ", "sec ", "thread ", "set_", "global "},
+          .payload_statements = {{"set_payload(", number_argument},
+                                 {"set_payload_mass(", number_argument},
+                                 {"set_target_payload(", number_argument}},
           .read = [](const ReaderInput& input) { return UrReader(input).read(); },
           .write = urscript_text};
 }

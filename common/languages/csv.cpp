@@ -1,6 +1,7 @@
 // A table with a header: columns q1_deg .. (or joint1_deg, j1_rad, theta1_deg, a1_deg; _mm or _m where a joint slides),
-// or x_mm, y_mm, z_mm (or _m) with or without qw, qx, qy, qz; joints where there are both. s1 .., payload_kg,
-// temperature_celsius and time_s are a target's circumstances. Commas, semicolons or tabs separate.
+// or x_mm, y_mm, z_mm (or _m) with or without qw, qx, qy, qz; joints where there are both. Of an arm on rails, poses
+// have beside them where these stand (q1_mm ..). s1 .., payload_kg, temperature_celsius and time_s are a target's
+// circumstances. Commas, semicolons or tabs separate.
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
@@ -167,12 +168,34 @@ class CsvTargets {
     for (const char* axis : {"x", "y", "z"}) refuse_twice(axis);
     position_ = all_of({"x", "y", "z"}, kLengths);
     if (!position_.empty()) orientation_ = all_of({"qw", "qx", "qy", "qz"}, kNoUnit);
+    if (joints_.empty() && !position_.empty()) find_rails();
     for (std::size_t i = 0; i < arm_.joints.size(); ++i)
       approach_.push_back(find("s" + std::to_string(i + 1), kNoUnit));
     if (!joints_.empty() || !position_.empty()) return;
     throw InputError({text_.source().file(), text_.place(header_).line}, "",
                      "the header has neither a column for every joint of the arm (q1_deg, q2_deg, ...) nor x_mm, y_mm, "
                      "z_mm; the unit stands in a column's name");
+  }
+
+  /// Where the rails of an arm of six joints on rails stand: columns of its first joints.
+  void find_rails() {
+    constexpr int kSix = 6;
+    const int rails = arm_.size() - kSix;
+    if (rails <= 0 || !has_six_revolute_joints(arm_, rails)) return;
+    for (const char* stem : {"q", "j", "joint", "e", "q_", "joint_"}) {
+      ProgramColumns found;
+      for (int rail = 1; rail <= rails; ++rail) {
+        if (const auto column = find(stem + std::to_string(rail), kLengths)) found.push_back(*column);
+      }
+      if (std::ssize(found) < rails) continue;
+      refuse_both(rails_, found);
+      rails_ = std::move(found);
+    }
+    if (!rails_.empty()) return;
+    throw InputError(
+        {text_.source().file(), text_.place(header_).line}, "",
+        "the header has poses, but no column that says where the rail that carries the arm stands; add q1_mm" +
+            std::string(rails > 1 ? ", q2_mm, ..." : ""));
   }
 
   std::vector<Cell> cells(const ProgramColumns& columns, const std::vector<CsvField>& row) const {
@@ -209,6 +232,7 @@ class CsvTargets {
     target.joints = cells(joints_, row);
     if (joints_.empty()) {
       target.position = cells(position_, row);
+      target.carried = cells(rails_, row);
       target.orientation = cells(orientation_, row);
       if (!orientation_.empty()) {
         require_quaternion(text_, target.orientation);
@@ -246,7 +270,7 @@ class CsvTargets {
   std::size_t header_ = 0, line_end_ = 0, found_ = 0;
   std::vector<CsvField> headings_;
   std::vector<std::string> names_;
-  ProgramColumns joints_, position_, orientation_;
+  ProgramColumns joints_, position_, orientation_, rails_;
   std::vector<std::optional<Column>> approach_;  ///< of every joint
 };
 

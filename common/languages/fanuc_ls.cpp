@@ -253,25 +253,29 @@ class FanucReader {
 };
 
 std::string fanuc_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
-  if (!has_six_revolute_joints(arm)) return {};
   std::string motions, positions;
   int line = 0, number = 0;
   const auto instruction = [&](const std::string& words) {
     motions += "  " + std::to_string(++line) + ':' + words + " ;\n";
   };
   for (const ProgrammedStop& stop : stops) {
+    const auto carried = carried_stop(arm, stop.joints);
+    if (!carried) return {};
     const std::string at = std::to_string(++number);
     instruction("J P[" + at + "] 20% FINE");
     if (stop.waits) instruction("  PAUSE");
     positions += "P[" + at + ":\"" + stop.name + "\"]{\n   GP1:\n\tUF : 0, UT : 0,\n\t";
-    const std::string joints = joints_text(arm, stop.joints, ",");
+    const std::string joints = joints_text(carried->arm, carried->joints, ",");
     std::size_t begin = 0;
-    for (int joint = 1; joint <= arm.size(); ++joint) {
+    for (int joint = 1; joint <= carried->arm.size(); ++joint) {
       const std::size_t end = std::min(joints.find(',', begin), joints.size());
       positions +=
           (joint > 1 ? ", J" : "J") + std::to_string(joint) + "= " + joints.substr(begin, end - begin) + " deg";
       begin = end + 1;
     }
+    int rail = 0;
+    for (const std::string& place : rail_texts(*carried))
+      positions += ",\n\tE" + std::to_string(++rail) + "= " + place + "  mm";
     positions += "\n};\n";
   }
   return "/PROG  MEASURE\n/ATTR\nDEFAULT_GROUP\t= 1,*,*,*,*;\n/MN\n" + motions + "/POS\n" + positions + "/END\n";
@@ -288,7 +292,7 @@ Language fanuc_ls_language() {
           .comment_end = " ;",
           .longest_comment = 31,  // a remark has 32 letters at most
           .headers = {"/mn"},
-          .payload_statements = {"payload["},
+          .payload_statements = {{.begin = "payload["}},
           .read = [](const ReaderInput& input) { return FanucReader(input).read(); },
           .write = fanuc_text};
 }

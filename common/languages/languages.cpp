@@ -10,6 +10,7 @@
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kuka_abb_ur/kuka_abb_ur.hpp"
+#include "languages/payload_statements.hpp"
 #include "staubli_kawasaki/staubli_kawasaki.hpp"
 
 namespace demecal::inline languages {
@@ -131,34 +132,6 @@ void leave_ambiguous_names(Program& program) {
   program.targets = std::move(kept);
 }
 
-/// Whether `line` begins with the statement; Language::payload_statements says how they are written.
-bool begins_with_statement(std::string_view line, std::string_view statement) {
-  const std::string_view word = statement.substr(0, statement.size() - 1);
-  if (!line.starts_with(word)) return false;
-  line.remove_prefix(word.size());
-  const std::size_t next = line.find_first_not_of(" \t");
-  const char behind = next == std::string_view::npos ? '\0' : line[next];
-  return statement.back() == ' ' ? next > 0 && behind != '\0' && behind != '=' : behind == statement.back();
-}
-
-/// Where lines begin, behind blanks and a line's number, with a statement that sets the payload.
-std::vector<TextPlace> payload_places(const Language& language, const ProgramSource& source) {
-  std::vector<TextPlace> places;
-  for (std::size_t file = 0; file < source.files().size(); ++file) {
-    const std::string text = lower_case(source.files()[file].text);
-    for (std::size_t begin = 0, line = 1; begin < text.size(); ++line) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
-      const std::size_t first = std::min(text.find_first_not_of(" \t:0123456789", begin), end);
-      const auto begins = [&](std::string_view statement) {
-        return begins_with_statement(std::string_view(text).substr(first, end - first), statement);
-      };
-      if (std::ranges::any_of(language.payload_statements, begins)) places.push_back({line, first - begin + 1, file});
-      begin = end + 1;
-    }
-  }
-  return places;
-}
-
 template <typename Match>
 const Language* first_of(std::span<const Language> among, const Match& match) {
   const auto found = std::find_if(among.begin(), among.end(), match);
@@ -205,9 +178,28 @@ Program read_program(const Language& language, const ProgramSource& source, cons
   program.file = source.file();
   for (std::size_t file = 1; file < source.files().size(); ++file)
     program.further.push_back({source.files()[file].name, source.begin(file)});
-  program.payload_set_at = payload_places(language, source);
+  program.payload_statements = payload_statements_of(language, source);
   if (several) leave_ambiguous_names(program);
   return program;
+}
+
+void require_program(const Language& language, const ProgramSource& source, const Program& program) {
+  if (!program.targets.empty() || !program.uncorrected.empty() || !program.joints_lost_at.empty()) return;
+  if (language.headers.empty() && language.openings.empty()) return;  // its reader refuses what is none
+  const std::string text = lower_case(source.text());
+  std::vector<std::string> words(language.headers.begin(), language.headers.end());
+  words.insert(words.end(), language.openings.begin(), language.openings.end());
+  for (std::size_t begin = 0; begin < text.size(); begin = next_line(text, begin)) {
+    const std::size_t first = std::min(text.find_first_not_of(" \t", begin), text.size());
+    const std::string_view line = std::string_view(text).substr(first);
+    if (std::ranges::any_of(words, [&](const std::string& word) { return line.starts_with(word); })) return;
+  }
+  words.insert(words.end(), language.signs.begin(), language.signs.end());
+  if (std::ranges::any_of(language.signs, [&](std::string_view sign) { return text.find(sign) != text.npos; })) return;
+  throw InputError({source.file(), 0}, "",
+                   "is no program in " + std::string(language.title) +
+                       ": it holds no motion, no point and no line by which such programs are known (" +
+                       joined_words(words, ", ") + "); give the program, or name its language with --language");
 }
 
 Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm) {

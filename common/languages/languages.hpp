@@ -32,6 +32,10 @@ Program read_program(const Language& language, const ProgramSource& source, cons
                      const ControllerData& controller = {});
 Program read_program(const Language& language, std::string_view text, const std::string& file, const Chain& arm);
 
+/// Throws InputError where a text that was read as a program of this language holds no motion, no point and no line
+/// that such programs begin with: it is none.
+void require_program(const Language& language, const ProgramSource& source, const Program& program);
+
 // The comment by which a corrected program is known, so that none is corrected twice
 
 /// "corrected by demecal VERSION with the model of JOB (data SHA)": the same for the same model.

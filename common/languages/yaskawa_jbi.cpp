@@ -1,6 +1,7 @@
 // Yaskawa (Motoman) jobs, .JBI: positions of //POS in Cartesian coordinates (///RECTAN: x, y, z in mm and Rx, Ry, Rz in
 // degrees, turns about x, y, z that stay), in the frame that ///POSTYPE names, or in pulses (///PULSE) of the six
-// joints, where it is stated elsewhere how many of them a degree has. Base axes (BC) and stations (EC) are kept.
+// joints, where it is stated elsewhere how many of them a degree has. Base axes (BC; in mm or pulses) and stations (EC)
+// are kept; the former are the rails that carry an arm that has any.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -8,6 +9,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,6 +18,7 @@
 #include "data/text.hpp"
 #include "kinematics/chain.hpp"
 #include "languages/labelled_way.hpp"
+#include "languages/yaskawa_jbi_base.hpp"
 #include "languages/yaskawa_jbi_way.hpp"
 #include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/language.hpp"
@@ -29,19 +32,7 @@ namespace {
 /// Degrees have two decimals with some controllers, four with others.
 constexpr CellUnit kJobAngle{std::numbers::pi / 180.0, 2};
 constexpr std::size_t kPositionNumbers = 6;
-
-/// "C3" of C00003 and of C0003; empty where the word names no position of the arm.
-std::string position_name(std::string_view word) {
-  constexpr std::size_t kMostDigits = 9;
-  std::string name = lower_case(word);
-  if (name.starts_with("px")) name.erase(1, 1);  // the name of P with its external axes
-  const bool named = name.size() > 1 && name.size() <= kMostDigits + 1 &&
-                     (name.front() == 'c' || name.front() == 'p') &&
-                     std::all_of(name.begin() + 1, name.end(), is_digit);
-  if (!named) return "";
-  const std::size_t first = std::min(name.find_first_not_of('0', 1), name.size() - 1);
-  return (name.front() == 'c' ? "C" : "P") + name.substr(first);
-}
+constexpr const char* kRobotFrame = "robot";
 
 /// What the lines above a position say of it.
 struct JobSetting {
@@ -52,9 +43,12 @@ struct JobSetting {
 class JobReader {
  public:
   explicit JobReader(const ReaderInput& input)
-      : text_(input.source, {}), code_(text_.text()), arm_(input.arm), controller_(input.controller) {
-    require_six_joints(input.arm, input.source.file(), "Yaskawa's INFORM");
-  }
+      : text_(input.source, {}),
+        code_(text_.text()),
+        arm_(input.arm),
+        controller_(input.controller),
+        base_(input),
+        rails_(base_.rails()) {}
 
   Program read() {
     always_shifts_ = job_jumps(text_);
@@ -75,6 +69,7 @@ class JobReader {
   };
   struct Uses {
     std::vector<TargetUse> motions{};
+    std::set<std::string> bases{};  ///< positions of the base axes that motions to it name; "": one names none
     std::string why{};
     bool given = false;  ///< by a position of the file
   };
@@ -116,7 +111,8 @@ class JobReader {
     std::size_t first = begin;
     const std::string name(text_.trimmed(first, sign));
     base_axes_ = base_axes_ || lower_case(name).starts_with('b');
-    const std::string key = position_name(name);
+    base_.read(text_, name, sign + 1, end, setting_.pulses);
+    const std::string key = robot_position_name(name);
     if (key.empty()) return;
     Position position{key, {.name = name, .place = text_.place(begin)}};
     if (setting_.pulses && controller_.pulses_per_deg.empty()) {
@@ -134,7 +130,7 @@ class JobReader {
     std::array<CellUnit, kPositionNumbers> units{kMillimetres, kMillimetres, kMillimetres,
                                                  kJobAngle,    kJobAngle,    kJobAngle};
     for (std::size_t joint = 0; setting_.pulses && joint < units.size(); ++joint)
-      units[joint] = {joint_units(arm_)[joint].size / controller_.pulses_per_deg[joint], 0};
+      units[joint] = {joint_units(arm_)[rails_ + joint].size / controller_.pulses_per_deg[rails_ + joint], 0};
     return units;
   }
 
@@ -160,7 +156,7 @@ class JobReader {
       target.orientation.assign(cells.begin() + 3, cells.end());
       target.form = OrientationForm::fixed_xyz_angles;
       target.hint.configuration = setting_.configuration;
-      if (!setting_.configuration.empty()) target.hint.counted_turns = {0, 3, 5};
+      if (!setting_.configuration.empty()) target.hint.counted_turns = {rails_, rails_ + 3, rails_ + 5};
     }
     set_frames(target);
   }
@@ -169,7 +165,7 @@ class JobReader {
     if (!setting_.tool.empty()) set_tool(target.frames, controller_.tool(setting_.tool, "tool " + setting_.tool));
     const std::string& frame = setting_.frame;
     if (target.position.empty() || frame == "base" || frame.empty()) return;
-    if (frame == "robot") return set_frame(target.frames, {"robot", Eigen::Isometry3d::Identity(), ""});
+    if (frame == "robot") return set_frame(target.frames, {kRobotFrame, Eigen::Isometry3d::Identity(), ""});
     if (frame == "user")
       return set_frame(target.frames, controller_.frame(setting_.user, "user frame " + setting_.user));
     const std::string name = "frame " + frame;
@@ -186,10 +182,11 @@ class JobReader {
     const bool motion = word.starts_with("mov"), coordinated = word.starts_with("smov"), relative = word == "imov";
     const bool shifted = motion && !shifts_.empty(), other = !motion && word.find("mov") != std::string::npos;
     bool named = false;
+    const std::string base = motion ? JobBaseAxes::named(text_, begin, end) : "";
     for (std::size_t at = begin; at < end; ++at) {
       if (!text_.begins_word(at)) continue;
       const std::size_t word_end = std::min(text_.word_end(at), end);
-      const std::string key = position_name(code_.substr(at, word_end - at));
+      const std::string key = robot_position_name(code_.substr(at, word_end - at));
       // UNTIL IN#(1)=ON may stop it before it is there.
       if (motion && text_.word_at(at) == "until") program_.joints_lost_at.push_back(at);
       at = word_end - 1;
@@ -197,6 +194,7 @@ class JobReader {
       named = true;
       Uses& uses = uses_[key];
       if (motion) way_.motion(begin);
+      if (motion) uses.bases.insert(base);
       if (motion && !shifted) {
         uses.motions.push_back({begin, word == "movj" ? Motion::joints : Motion::line, {}});
       } else if (motion || coordinated) {
@@ -233,12 +231,14 @@ class JobReader {
         position.why = "it may be the one that " + changes_any_ + " changes, whose number is computed";
       if (position.why.empty() && uses.motions.empty() && position.key.starts_with('P'))
         position.why = "no motion of this job goes to it";
+      if (position.why.empty()) position.why = base_.take(position.key, uses.bases, target);
       if (!position.why.empty()) {
         skip_target(program_, target, position.why);
         for (const TargetUse& use : uses.motions) program_.joints_lost_at.push_back(use.begin);
         continue;
       }
-      if (base_axes_ && target.is_pose() && target.frames.frame.empty())
+      if (rails_ > 0 && target.frames.frame == kRobotFrame) target.frames.base_from_frame = base_.robot_frame(target);
+      if (rails_ == 0 && base_axes_ && target.is_pose() && target.frames.frame.empty())
         target.frames.unknown_frame = "base axes carry the arm";
       complete(uses.motions, target);
       program_.targets.push_back(std::move(target));
@@ -264,6 +264,8 @@ class JobReader {
   std::string_view code_;
   const Chain& arm_;
   const ControllerData& controller_;
+  JobBaseAxes base_;
+  std::size_t rails_;
   Program program_;
   JobSetting setting_;
   bool in_positions_ = false, in_instructions_ = false, several_robots_ = false, base_axes_ = false,
@@ -286,6 +288,7 @@ Language yaskawa_jbi_language() {
           .comment = "'",
           .longest_comment = 31,  // a comment has 32 letters at most
           .headers = {"nop"},
+          .openings = {"/job"},
           .read = [](const ReaderInput& input) { return JobReader(input).read(); }};
 }
 

@@ -159,7 +159,15 @@ void FrameFlow::note_arrivals(Program& program) const {
     for (const auto& [begin, place] : target.near_motions) motions.insert(begin);
   }
   motions.insert(program.joints_lost_at.begin(), program.joints_lost_at.end());
-  for (const Node& node : nodes_) program.way.push_back({node.at, node.next});
+  for (const Node& node : nodes_) {
+    Stretch stretch{node.at, node.next};
+    for (const std::size_t routine : routines_named(node.callee, node.routine))
+      stretch.calls.push_back(routines_[routine].entry);
+    program.way.push_back(std::move(stretch));
+  }
+  for (const Routine& routine : routines_) {
+    for (const std::size_t node : routine.exits) program.way[node].leaves = true;
+  }
   std::set<std::size_t> moving;  // routines
   for (const std::size_t motion : motions) {
     if (const Node* node = node_at(motion)) moving.insert(node->routine);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <iomanip>
+#include <optional>
 #include <sstream>
 
 #include "kinematics/units.hpp"
@@ -36,9 +37,33 @@ std::vector<std::string> numbered_names(std::string_view stem, int count) {
   return names;
 }
 
-bool has_six_revolute_joints(const Chain& arm) {
+bool has_six_revolute_joints(const Chain& arm, int rails) {
   constexpr int kSix = 6;
-  return arm.size() == kSix && std::ranges::all_of(arm.joints, [](const Joint& joint) { return is_revolute(joint); });
+  if (arm.size() != kSix + rails) return false;
+  for (int joint = 0; joint < arm.size(); ++joint) {
+    if (is_revolute(arm, joint) != (joint >= rails)) return false;
+  }
+  return true;
+}
+
+std::optional<CarriedStop> carried_stop(const Chain& arm, const JointVector& joints) {
+  constexpr int kSix = 6;
+  const int rails = arm.size() - kSix;
+  if (rails < 0 || !has_six_revolute_joints(arm, rails)) return std::nullopt;
+  CarriedStop stop{arm, joints.head(rails), joints.tail(kSix)};
+  stop.arm.joints.erase(stop.arm.joints.begin(), stop.arm.joints.begin() + rails);
+  return stop;
+}
+
+std::vector<std::string> rail_texts(const CarriedStop& stop) {
+  constexpr int kDecimals = 4;
+  std::vector<std::string> texts;
+  for (const double place_m : stop.rails) {
+    std::ostringstream text;
+    text << std::fixed << std::setprecision(kDecimals) << millimetres(place_m) + 0.0;
+    texts.push_back(text.str());
+  }
+  return texts;
 }
 
 }  // namespace demecal::inline parsed_programs

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,8 +30,26 @@ std::string joints_text_si(const JointVector& joints, std::string_view separator
 /// "A1", "A2", ... as many as the arm has joints.
 std::vector<std::string> numbered_names(std::string_view stem, int count);
 
-/// Whether targets of six joints can be of this arm, all of them revolute.
-bool has_six_revolute_joints(const Chain& arm);
+/// Whether targets of six joints can be of this arm, all of them revolute, so many rails before them.
+bool has_six_revolute_joints(const Chain& arm, int rails = 0);
+
+/// The arm without its rails, and the joints of a stop in two: those of the rails, and those of the arm on them.
+struct CarriedStop {
+  Chain arm;
+  JointVector rails, joints;
+};
+/// Of an arm of six joints that turn on rails (sliding joints before those) or none; nothing of another.
+std::optional<CarriedStop> carried_stop(const Chain& arm, const JointVector& joints);
+/// Where the rails stand, in mm (to 0.0001).
+std::vector<std::string> rail_texts(const CarriedStop& stop);
+
+/// How lines begin that tell the controller what the arm carries.
+struct PayloadWords {
+  std::string_view begin;  ///< in small letters: a word and the sign behind it, or a blank where an argument follows
+  /// What it carries by the argument at `at` of the program in small letters, without lines that are comments; nothing
+  /// where that is not told. None: the argument is a number by which the controller keeps it.
+  std::optional<double> (*kg)(std::string_view code, std::size_t at) = nullptr;
+};
 
 /// What correction needs to know of a language. It is defined in the language's own file and listed there or by its
 /// family; nothing else knows one language from another. Corrected numbers replace the bytes of the old ones.
@@ -44,9 +63,10 @@ struct Language {
   std::string_view comment_end{};                 ///< what a comment must end with; empty: the end of its line
   std::size_t longest_comment = 1000;             ///< letters that a comment may have; longer ones take several lines
   std::vector<std::string_view> headers{};  ///< how lines begin, in small letters, that comments must stand behind
-  /// How lines begin that tell the controller what the arm carries, in small letters: a word and the sign behind it,
-  /// or a blank where an argument follows.
-  std::vector<std::string_view> payload_statements{};
+  /// How lines begin, in small letters, that stand in programs of this language also where these have neither a motion
+  /// nor a point.
+  std::vector<std::string_view> openings{};
+  std::vector<PayloadWords> payload_statements{};
   /// Whether a program may be several files, read as one text.
   bool of_several_files = false;
   /// The ending of the file of the same name that usually belongs to a program of this ending: {"src", "dat"}.

@@ -124,6 +124,16 @@ struct FurtherFile {
 struct Stretch {
   std::size_t begin = 0;
   std::vector<std::size_t> next{};  ///< the numbers of those that may come behind it
+  /// The first stretches of the routines that it begins by calling: one of them, where several may be meant.
+  std::vector<std::size_t> calls{};
+  bool leaves = false;  ///< behind it a routine may end
+};
+
+/// A statement that says what the arm carries from then on.
+struct PayloadStatement {
+  TextPlace place{};
+  std::size_t begin = 0;       ///< its first byte
+  std::optional<double> kg{};  ///< nothing where it names a number of the controller's, or computes it
 };
 
 struct Program {
@@ -136,8 +146,7 @@ struct Program {
   /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, of
   /// what may stop a motion on its way, and of calls of routines that move.
   std::vector<std::size_t> joints_lost_at{};
-  /// Where statements say what the arm carries from then on.
-  std::vector<TextPlace> payload_set_at{};
+  std::vector<PayloadStatement> payload_statements{};  ///< in the order of the text
   /// In the order of the text; empty: all of it is run in its order.
   std::vector<Stretch> way{};
 

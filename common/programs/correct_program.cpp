@@ -21,6 +21,7 @@
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
 #include "parsed_programs/orientation.hpp"
+#include "parsed_programs/payload_flow.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "programs/approach_sides.hpp"
 #include "programs/configuration.hpp"
@@ -259,7 +260,7 @@ void note_unknown_side(const Target& target, const CorrectedTarget& corrected, U
 
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
                                  const Circumstances& circumstances) {
-  CorrectedProgram result{std::move(program), {}, {}, {}};
+  CorrectedProgram result{with_followed_payloads(std::move(program)), {}, {}, {}};
   const std::set<std::string> tools = untold_tools(result.program);
   Circumstances with_tool = circumstances;
   with_tool.tool_given = circumstances.tool_given && tools.size() < 2;

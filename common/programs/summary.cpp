@@ -52,6 +52,7 @@ std::string block(const Program& program, const Target& target, const CorrectedT
         fmt::format(", {} within ± {:.3f} mm (k = 2)",
                     corrected.command == corrected.nominal ? "left as programmed, which is reached to" : "corrected to",
                     millimetres(*corrected.error95_m));
+  if (corrected.stop.payload_stated) text += fmt::format(", carrying {:g} kg", corrected.stop.payload_kg);
   text += '\n';
   const std::string names = heading(figures);
   if (names != last_heading) text += names;
@@ -85,6 +86,7 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
     json["coverage_factor"] = kCoverageFactor;
     json["widened_by"] = corrected.widened_by;
   }
+  if (corrected.stop.payload_stated) json["payload_kg"] = corrected.stop.payload_kg;
   json["left_as_programmed"] = corrected.left;
   if (target.is_pose()) json["turned_deg"] = figures.turned_deg;
   return json;

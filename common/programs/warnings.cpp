@@ -118,21 +118,37 @@ std::string names_of(const std::vector<const Effect*>& effects) {
   return names;
 }
 
-/// Of a program whose statements set the payload, which are not followed.
-std::string set_payload_sentence(const Program& program, const Circumstances& given) {
+/// "line 3, 5 and 2 more": of these statements.
+std::string statement_lines(const Program& program, const std::vector<const PayloadStatement*>& statements) {
   constexpr std::size_t kNamed = 3;
-  const std::vector<TextPlace>& set_at = program.payload_set_at;
-  std::string places;
-  for (std::size_t i = 0; i < std::min(set_at.size(), kNamed); ++i)
-    places += (i == 0 ? "" : ", ") + std::to_string(set_at[i].line) +
-              (program.further.empty() ? "" : " of " + program.file_name(set_at[i].file));
-  if (set_at.size() > kNamed) places += " and " + std::to_string(set_at.size() - kNamed) + " more";
+  std::string places = statements.size() == 1 ? "line " : "lines ";
+  for (std::size_t i = 0; i < std::min(statements.size(), kNamed); ++i) {
+    const TextPlace& place = statements[i]->place;
+    places += (i == 0 ? "" : ", ") + std::to_string(place.line) +
+              (program.further.empty() ? "" : " of " + program.file_name(place.file));
+  }
+  return places + (statements.size() > kNamed ? " and " + std::to_string(statements.size() - kNamed) + " more" : "");
+}
+
+/// Of a program whose statements set the payload, some of its targets being reached with one that is not told.
+std::string set_payload_sentence(const Program& program, const Circumstances& given) {
+  std::vector<const PayloadStatement*> all, unread;
+  for (const PayloadStatement& one : program.payload_statements) {
+    all.push_back(&one);
+    if (!one.kg) unread.push_back(&one);
+  }
+  const auto is_untold = [](const Target& target) { return !target.payload_kg; };
+  const auto untold = static_cast<std::size_t>(std::ranges::count_if(program.targets, is_untold));
+  const std::string why =
+      unread.empty() ? "ways on which it is not set, or set otherwise, lead to them"
+                     : statement_lines(program, unread) + (unread.size() == 1 ? " names" : " name") +
+                           " it by a number of the controller's, or compute" + (unread.size() == 1 ? "s" : "") + " it";
   const std::string taken =
       given.payload_kg ? number_text(*given.payload_kg) + " kg, of --payload-kg, is" : "an empty hand is";
-  return "the payload, which the program sets in " + std::string(set_at.size() == 1 ? "line " : "lines ") + places +
-         "; that is not followed, and " + taken + " taken for all its targets; " +
-         (set_at.size() == 1 ? "--payload-kg tells it"
-                             : "a program for each payload, with its --payload-kg, has each corrected for its own");
+  return "the payload, which the program sets in " + statement_lines(program, all) + "; of " +
+         counted(untold, "target") + " it is not told (" + why + "), and " + taken + " taken there" +
+         (given.payload_kg ? ""
+                           : ", with a radius that allows for what the arm was measured with; --payload-kg tells it");
 }
 
 /// What the model's effects depend on and nobody states; the side of approach follows from the motions.
@@ -143,7 +159,7 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
       return std::ranges::all_of(program.targets, [=](const Target& target) { return (target.*member).has_value(); });
     };
     if (one.needed == &Needs::payload)
-      return by_all(&Target::payload_kg) || (given.payload_kg.has_value() && program.payload_set_at.size() < 2);
+      return by_all(&Target::payload_kg) || (given.payload_kg.has_value() && program.payload_statements.size() < 2);
     if (one.needed == &Needs::temperature)
       return given.temperature_celsius.has_value() || by_all(&Target::temperature_celsius);
     return one.needed == &Needs::approach || one.needed == &Needs::time;
@@ -159,7 +175,7 @@ void check_circumstances(const Program& program, const CommandModel& model, cons
     if (one.needed == &Needs::payload) option = "; --payload-kg tells it";
     if (one.needed == &Needs::temperature) option = "; --temperature-celsius tells it";
     const std::string depend = names_of(depending) + (depending.size() == 1 ? " depends on " : " depend on ");
-    if (one.needed == &Needs::payload && !program.payload_set_at.empty()) {
+    if (one.needed == &Needs::payload && !program.payload_statements.empty()) {
       sentences.push_back(depend + set_payload_sentence(program, given));
       continue;
     }
@@ -250,7 +266,12 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
         "validation poses: they may be too small");
   if (model.posterior && model.interval && model.interval->along_path)
     sentences.emplace_back("the radii that hold 95 % (± ... mm): " + std::string(kAlongPathRemark));
-  if (program.targets.empty()) sentences.emplace_back("no targets were found that can be corrected");
+  if (program.targets.empty()) {
+    const bool moves = !program.uncorrected.empty() || !program.joints_lost_at.empty();
+    sentences.emplace_back(
+        moves ? "no targets were found that can be corrected"
+              : "it holds no motion and no point: there is nothing to correct, and it is written as it was");
+  }
   const auto unknown = [](const Target& target) { return target.is_pose() && target.form == OrientationForm::unknown; };
   if (std::any_of(program.targets.begin(), program.targets.end(), unknown)) {
     sentences.emplace_back(

@@ -1,6 +1,6 @@
 // Kawasaki AS: the locations of .TRANS (x, y, z in mm and O, A, T in degrees, turns about z, the new y and the new z)
 // and of .JOINTS (a number per joint), and those that programs write as TRANS(...) and #PPOINT(...). Numbers of
-// external axes behind them are kept.
+// external axes behind them are kept; the first of joints are the rails that carry the arm, as many as it has.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@
 #include "parsed_programs/given_numbers.hpp"
 #include "parsed_programs/language.hpp"
 #include "parsed_programs/orientation.hpp"
+#include "parsed_programs/payload_values.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/kawasaki_as_program.hpp"
@@ -32,6 +33,9 @@ namespace {
 constexpr CellUnit kOatAngle{std::numbers::pi / 180.0, kDecimalsDeg};
 constexpr std::array<CellUnit, 6> kTransUnits{kMillimetres, kMillimetres, kMillimetres,
                                               kOatAngle,    kOatAngle,    kOatAngle};
+
+/// Public documentation leaves open whether transformations are counted from the rail's base or move along with it.
+constexpr const char* kOnRail = "a rail carries the arm, and it is not told whether the pose moves along with it";
 
 enum class AsSection { none, program, transformations, joints, system };
 
@@ -46,7 +50,7 @@ class AsReader {
  public:
   explicit AsReader(const ReaderInput& input)
       : text_(input.source, {.comment = ';'}), code_(text_.code()), arm_(input.arm), controller_(input.controller) {
-    require_six_joints(input.arm, input.source.file(), "Kawasaki's AS");
+    rails_ = static_cast<std::size_t>(rails_of(input.arm, input.source.file(), "Kawasaki's AS"));
   }
 
   Program read() {
@@ -130,12 +134,17 @@ class AsReader {
       text_.fail(std::min(begin, code_.size()), 1, target.name + ' ' + rule);
     }
     numbers.resize(needed);
-    const std::vector<CellUnit> units =
-        of_joints ? joint_units(arm_) : std::vector<CellUnit>(kTransUnits.begin(), kTransUnits.end());
-    const auto cells = cells_of(text_, numbers, units, required, program_, target);
+    std::vector<CellUnit> units(kTransUnits.begin(), kTransUnits.end());
+    if (of_joints) {  // the six that turn come first, the rails' behind them
+      units = joint_units(arm_, static_cast<int>(rails_));
+      units.resize(needed, kMillimetres);
+    }
+    auto cells = cells_of(text_, numbers, units, required, program_, target);
     if (!cells) return;
     if (of_joints) {
-      target.joints = *cells;
+      const auto behind = cells->end() - static_cast<std::ptrdiff_t>(rails_);
+      target.carried.assign(behind, cells->end());
+      target.joints.assign(cells->begin(), behind);
     } else {
       target.position.assign(cells->begin(), cells->begin() + 3);
       target.orientation.assign(cells->begin() + 3, cells->end());
@@ -215,6 +224,7 @@ class AsReader {
         if (!given.at(name, use.begin, way)) program_.joints_lost_at.push_back(use.begin);
       for (TargetUse& use : uses) use.frames = statements_.frames_at(use.begin, pose, lookup);
       if (!uses.empty()) take_uses(uses, target);
+      if (rails_ > 0 && pose) target.frames.unknown_frame = kOnRail;
       kept.push_back(std::move(target));
     }
     program_.targets = std::move(kept);
@@ -224,17 +234,21 @@ class AsReader {
   std::string_view code_;
   const Chain& arm_;
   const ControllerData& controller_;
+  std::size_t rails_ = 0;
   Program program_;
   AsSection section_ = AsSection::none;
   AsStatements statements_{text_};
 };
 
 std::string as_text(std::span<const ProgrammedStop> stops, const Chain& arm) {
-  if (!has_six_revolute_joints(arm)) return {};
   std::string motions, points;
   for (const ProgrammedStop& stop : stops) {
+    const auto carried = carried_stop(arm, stop.joints);
+    if (!carried) return {};
     motions += "  JMOVE #" + stop.name + "\n  BREAK\n" + (stop.waits ? "  PAUSE\n" : "");
-    points += '#' + stop.name + "  " + joints_text(arm, stop.joints, "  ") + '\n';
+    points += '#' + stop.name + "  " + joints_text(carried->arm, carried->joints, "  ");
+    for (const std::string& place : rail_texts(*carried)) points += "  " + place;
+    points += '\n';
   }
   return ".PROGRAM measure()\n" + motions + ".END\n.JOINTS\n" + points + ".END\n";
 }
@@ -248,7 +262,8 @@ Language kawasaki_as_language() {
           .signs = {".trans", ".joints"},
           .other_endings = {"pg"},
           .comment = ".*",
-          .payload_statements = {"weight "},
+          .openings = {".program", ".sysdata", ".reals", ".strings", ".netconf"},
+          .payload_statements = {{"weight ", number_argument}},
           .of_several_files = true,
           .read = [](const ReaderInput& input) { return AsReader(input).read(); },
           .write = as_text};

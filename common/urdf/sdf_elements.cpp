@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "data/link_inertia.hpp"
 #include "data/text.hpp"
 #include "kinematics/drawn_arm.hpp"
 #include "urdf/sdf_frames.hpp"
@@ -76,6 +77,22 @@ UrdfType sdf_type(const XmlValues& values, const XmlElement& element) {
   return *type;
 }
 
+/// In the axes of the link; nothing where not all three moments stand there.
+std::optional<Eigen::Matrix3d> read_sdf_inertia(const XmlValues& values, const XmlElement& inertial,
+                                                const Origin& place) {
+  const XmlElement* inertia = inertial.child("inertia");
+  for (const char* moment : {"ixx", "iyy", "izz"}) {
+    if (inertia == nullptr || inertia->child(moment) == nullptr) return std::nullopt;
+  }
+  const auto number = [&](const char* key) {
+    const XmlElement* one = inertia->child(key);
+    return one == nullptr ? 0.0 : values.numbers(*one, 1).front();
+  };
+  const Eigen::Matrix3d own =
+      symmetric_matrix({number("ixx"), number("ixy"), number("ixz"), number("iyy"), number("iyz"), number("izz")});
+  return turned_inertia(own, place);
+}
+
 }  // namespace
 
 WrittenJoint read_sdf_joint(const XmlValues& values, const XmlElement& element, int minor) {
@@ -98,7 +115,7 @@ WrittenJoint read_sdf_joint(const XmlValues& values, const XmlElement& element, 
 }
 
 UrdfLink read_sdf_link(const XmlValues& values, const XmlElement& element) {
-  UrdfLink link{values.text(element, "name"), std::nullopt, element.line};
+  UrdfLink link{.name = values.text(element, "name"), .mass = std::nullopt, .line = element.line};
   if (link.name == kWorldFrame) values.fail(element, link.name, "is the name of the world, not of a link; rename it");
   const XmlElement* inertial = element.child("inertial");
   const XmlElement* mass = inertial == nullptr ? nullptr : inertial->child("mass");
@@ -109,6 +126,7 @@ UrdfLink read_sdf_link(const XmlValues& values, const XmlElement& element) {
     values.fail(*inertial, place.relative_to, "is the frame of an inertial's pose, which must be its link's");
   link.mass = LinkMass{values.numbers(*mass, 1).front(), place.origin.xyz_m};
   if (link.mass->mass_kg < 0.0) values.fail(*mass, number_text(link.mass->mass_kg), "must not be negative: a mass");
+  link.inertia_kgm2 = read_sdf_inertia(values, *inertial, place.origin);
   return link;
 }
 

@@ -143,7 +143,7 @@ class SdfModel {
     frames_.require(frame, model_.line);
     frames_.add(kWorldFrame,
                 {.origin = origin_of(pose_of(pose.origin).inverse()), .relative_to = frame, .line = model_.line});
-    urdf_.links.push_back({kWorldFrame, std::nullopt, model_.line});
+    urdf_.links.push_back({.name = kWorldFrame, .mass = std::nullopt, .line = model_.line});
   }
 
   /// The joint between the links that its ends are attached to, as if it led straight to its child.
@@ -170,7 +170,7 @@ class SdfModel {
     joint.parent = on_another ? frame.attached_to : frames_.link_of(name);
     joint.child = name;
     joint.origin = frames_.origin_in(joint.parent, name);
-    urdf_.links.push_back({name, std::nullopt, frame.line});
+    urdf_.links.push_back({.name = name, .mass = std::nullopt, .line = frame.line});
     urdf_.joints.push_back(std::move(joint));
   }
 
@@ -182,7 +182,7 @@ class SdfModel {
     fixed.line = urdf_.joints[which].line;
     fixed.parent = frame;
     fixed.name = fixed.child = std::exchange(urdf_.joints[which].child, frame);
-    urdf_.links.push_back({frame, std::nullopt, fixed.line});
+    urdf_.links.push_back({.name = frame, .mass = std::nullopt, .line = fixed.line});
     urdf_.joints.push_back(std::move(fixed));
   }
 

@@ -120,40 +120,64 @@ DrawnJoint drawn(const UrdfJoint& joint, const std::optional<Eigen::Isometry3d>&
   return made;
 }
 
-/// Everything that moves with the joint `after` of the arm, up to its next one.
-LinkMass mass_between(const UrdfFile& urdf, const UrdfJoint& after, const UrdfJoint* next, bool& stated) {
+/// What moves with a joint, up to the next one, in its child link's frame.
+struct MovedBodies {
+  LinkMass mass{};
+  bool stated = false;  ///< a mass above 0
+  /// Nothing where a link with a mass states none, or one that no body has.
+  std::optional<Eigen::Matrix3d> inertia_kgm2{};
+  std::string without{};  ///< the first such link
+};
+
+MovedBodies bodies_between(const UrdfFile& urdf, const UrdfJoint& after, const UrdfJoint* next,
+                           std::vector<std::string>& notes) {
   struct Part {
     std::string link;
     Eigen::Isometry3d pose;
   };
-  LinkMass sum;
+  MovedBodies sum;
+  std::vector<InertialBody> bodies;
   std::vector<Part> parts{{after.child, Eigen::Isometry3d::Identity()}};
   while (!parts.empty()) {
     const Part part = std::move(parts.back());
     parts.pop_back();
-    if (const auto& mass = urdf.link(part.link).mass; mass && mass->mass_kg > 0.0) {
-      stated = true;
-      const double both_kg = sum.mass_kg + mass->mass_kg;
-      sum.centre_m += mass->mass_kg / both_kg * (part.pose * mass->centre_m - sum.centre_m);
-      sum.mass_kg = both_kg;
+    const UrdfLink& link = urdf.link(part.link);
+    if (const auto& mass = link.mass; mass && mass->mass_kg > 0.0) {
+      sum.stated = true;
+      const Eigen::Vector3d centre_m = part.pose * mass->centre_m;
+      const double both_kg = sum.mass.mass_kg + mass->mass_kg;
+      sum.mass.centre_m += mass->mass_kg / both_kg * (centre_m - sum.mass.centre_m);
+      sum.mass.mass_kg = both_kg;
+      const std::string fault = link.inertia_kgm2 ? fault_of_inertia(*link.inertia_kgm2) : "";
+      if (!fault.empty()) notes.push_back("the inertia of link " + link.name + " is left out: it " + fault);
+      if (sum.without.empty() && (!fault.empty() || !link.inertia_kgm2)) sum.without = link.name;
+      if (link.inertia_kgm2)
+        bodies.push_back({{mass->mass_kg, centre_m}, turned_inertia(*link.inertia_kgm2, origin_of(part.pose))});
     }
     for (const UrdfJoint* joint : urdf.joints_from(part.link)) {
       if (joint != next) parts.push_back({joint->child, part.pose * pose_of(joint->origin)});
     }
   }
+  if (sum.stated && sum.without.empty()) sum.inertia_kgm2 = joint_inertia(bodies, sum.mass.centre_m);
   return sum;
 }
 
 void set_masses(const UrdfFile& urdf, UrdfArm& arm) {
   bool any = false;
-  std::string unknown;
+  std::string unknown, without;
   for (std::size_t i = 0; i < arm.joints.size(); ++i) {
-    bool stated = false;
     const UrdfJoint* next = i + 1 < arm.joints.size() ? arm.joints[i + 1] : nullptr;
-    arm.masses.push_back(mass_between(urdf, *arm.joints[i], next, stated));
-    if (!stated) unknown += (unknown.empty() ? "" : ", ") + arm.joints[i]->child;
-    any = any || stated;
+    const MovedBodies bodies = bodies_between(urdf, *arm.joints[i], next, arm.notes);
+    arm.masses.push_back(bodies.mass);
+    arm.inertias.push_back(bodies.inertia_kgm2);
+    if (!bodies.stated) unknown += (unknown.empty() ? "" : ", ") + arm.joints[i]->child;
+    if (!bodies.without.empty()) without += (without.empty() ? "" : ", ") + bodies.without;
+    any = any || bodies.stated;
   }
+  const bool none = std::ranges::none_of(arm.inertias, [](const auto& inertia) { return inertia.has_value(); });
+  if (none) arm.inertias.clear();
+  if (!none && !without.empty())
+    arm.notes.push_back("no inertia is written of what moves with link " + without + ", which states none that holds");
   if (!any) {
     arm.masses.clear();
   } else if (!unknown.empty()) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "data/link_inertia.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/drawn_arm.hpp"
 #include "urdf/urdf_file.hpp"
@@ -20,6 +21,7 @@ struct UrdfArm {
   std::vector<const UrdfJoint*> joints;   ///< the moving joints, of the file that was read
   std::vector<Eigen::Isometry3d> before;  ///< of every moving joint: the fixed places before its own origin
   std::vector<LinkMass> masses;    ///< of what moves with each joint, in its child link's frame; empty: not stated
+  LinkInertias inertias;           ///< one for each of `masses`, in the same frames; empty: none is stated
   std::vector<std::string> notes;  ///< sentences: what was assumed
 };
 

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "data/link_inertia.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "urdf/xml_values.hpp"
@@ -38,13 +39,26 @@ UrdfJoint read_joint(const XmlValues& values, const XmlElement& element) {
   return joint;
 }
 
+/// In the axes of the link whose <inertial> it is; nothing where not all three moments stand there.
+std::optional<Eigen::Matrix3d> read_inertia(const XmlValues& values, const XmlElement& inertial) {
+  const XmlElement* inertia = inertial.child("inertia");
+  for (const char* moment : {"ixx", "iyy", "izz"}) {
+    if (inertia == nullptr || inertia->attribute(moment) == nullptr) return std::nullopt;
+  }
+  const auto number = [&](const char* key) { return values.number_or(inertia, key, 0.0); };
+  const Eigen::Matrix3d own =
+      symmetric_matrix({number("ixx"), number("ixy"), number("ixz"), number("iyy"), number("iyz"), number("izz")});
+  return turned_inertia(own, values.origin(inertial.child("origin")));
+}
+
 UrdfLink read_link(const XmlValues& values, const XmlElement& element) {
-  UrdfLink link{values.text(element, "name"), std::nullopt, element.line};
+  UrdfLink link{.name = values.text(element, "name"), .mass = std::nullopt, .line = element.line};
   const XmlElement* inertial = element.child("inertial");
   const XmlElement* mass = inertial == nullptr ? nullptr : inertial->child("mass");
   if (mass == nullptr) return link;
   link.mass = LinkMass{values.number_or(mass, "value", 0.0), values.origin(inertial->child("origin")).xyz_m};
   if (link.mass->mass_kg < 0.0) values.fail(*mass, number_text(link.mass->mass_kg), "must not be negative: a mass");
+  link.inertia_kgm2 = read_inertia(values, *inertial);
   return link;
 }
 

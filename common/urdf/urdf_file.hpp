@@ -49,6 +49,8 @@ struct UrdfLink {
   std::string name;
   std::optional<LinkMass> mass;  ///< in the link's own frame
   std::size_t line = 0;
+  /// About the centre of mass in the axes of the link's own frame, kg m^2; beside a mass alone.
+  std::optional<Eigen::Matrix3d> inertia_kgm2{};
 };
 
 struct UrdfFile {

@@ -216,6 +216,7 @@ ExitCode run_apply(const ApplyRequest& request) {
   refuse_corrected(source.files());
   const Language& language = language_asked(request, source.files().front().text);
   Program program = read_program(language, source, model.nominal.chain, controller_data(request, model.nominal));
+  require_program(language, source, program);
   const CommandModel own_tool = to_command_model(calibrated);
   CorrectedProgram corrected = correct_program(source.text(), std::move(program), model,
                                                {.payload_kg = request.payload_kg,

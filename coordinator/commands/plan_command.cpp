@@ -22,6 +22,7 @@
 #include "coordinator/result_folder.hpp"
 #include "data/data_set.hpp"
 #include "data_files/data_set_file.hpp"
+#include "data_files/link_inertias.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/planned_files.hpp"
 #include "drafting/planned_programs.hpp"
@@ -103,12 +104,13 @@ std::filesystem::path measured_file(const PlanCommand& command) {
 }
 
 std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request, const PlanCommand& command) {
-  std::vector<NamedText> files{{"poses.csv", planned_poses_csv(plan, request)},
-                               {"DATASET.yaml", planned_data_set_text(plan, request)},
-                               {"JOB.yaml", planned_job_text(request, measured_file(command))},
-                               {"robot.yaml", yaml_comment("the robot that was planned for, nominal") +
-                                                  "demecal_robot: 1\n" + robot_text(request.robot)},
-                               {"plan.html", plan_html(plan, request)}};
+  std::vector<NamedText> files{
+      {"poses.csv", planned_poses_csv(plan, request)},
+      {"DATASET.yaml", planned_data_set_text(plan, request)},
+      {"JOB.yaml", planned_job_text(request, measured_file(command))},
+      {"robot.yaml", yaml_comment("the robot that was planned for, nominal") + "demecal_robot: 1\n" +
+                         robot_text(request.robot, load_link_inertias(command.robot_file))},
+      {"plan.html", plan_html(plan, request)}};
   for (const Language& language : all_languages()) {
     std::string text = planned_program(plan, request.robot.chain, language);
     if (!text.empty()) files.push_back({"program." + std::string(written_ending(language)), std::move(text)});
@@ -122,6 +124,8 @@ ExitCode run_plan(const PlanCommand& command) {
   const PlanRequest request = plan_request(command);
   const Plan plan = make_plan(request);
   std::vector<NamedText> files = files_of(plan, request, command);
+  if (const std::string left_out = programs_left_out(plan, request.robot.chain); !left_out.empty())
+    fmt::print(stderr, "{}: {}\n", command.robot_file, left_out);
   std::vector<std::string> names;
   for (const NamedText& file : files) names.push_back(file.name);
   names.emplace_back("plan.json");

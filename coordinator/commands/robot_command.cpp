@@ -17,11 +17,12 @@
 
 #include "coordinator/commands.hpp"
 #include "coordinator/result_folder.hpp"
+#include "coordinator/robot_comparison.hpp"
 #include "data/data_set.hpp"
+#include "data/link_inertia.hpp"
 #include "data/text.hpp"
-#include "data_check/pendant.hpp"
+#include "data_files/link_inertias.hpp"
 #include "data_files/robot_file.hpp"
-#include "drafting/draft_data_set.hpp"
 #include "drafting/templates.hpp"
 #include "errors/input_error.hpp"
 #include "html/arm_picture.hpp"
@@ -159,6 +160,37 @@ void print_joints(const Robot& robot) {
                coupling.from + 1);
 }
 
+/// The centre of mass of a link in the link's frame as the file draws it.
+Eigen::Vector3d drawn_centre_m(const Robot& robot, std::size_t link) {
+  return robot.drawing ? robot.drawing->centres_m[link] : robot.masses[link].centre_m;
+}
+
+void print_links(const Robot& robot, const LinkInertias& inertias) {
+  if (robot.masses.empty()) return;
+  fmt::print(
+      "\nLinks (inertias about the centre of mass are shown alone: an arm that stands still has no use for them):\n");
+  for (std::size_t i = 0; i < robot.masses.size(); ++i) {
+    fmt::print("  link {}  {:g} kg at {} mm", i + 1, robot.masses[i].mass_kg,
+               displayed(components_mm(drawn_centre_m(robot, i)), 2));
+    if (i < inertias.size() && inertias[i]) {
+      const Eigen::Vector3d moments = principal_moments(*inertias[i]);
+      fmt::print("; principal moments {:.4g}  {:.4g}  {:.4g} kg m^2", moments[0], moments[1], moments[2]);
+    }
+    fmt::print("\n");
+  }
+}
+
+nlohmann::ordered_json links_json(const Robot& robot, const LinkInertias& inertias) {
+  nlohmann::ordered_json links = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < robot.masses.size(); ++i) {
+    nlohmann::ordered_json link{
+        {"link", i + 1}, {"mass_kg", robot.masses[i].mass_kg}, {"com_mm", components_mm(drawn_centre_m(robot, i))}};
+    if (i < inertias.size() && inertias[i]) link["inertia_kgm2"] = matrix_elements(*inertias[i]);
+    links.push_back(std::move(link));
+  }
+  return links;
+}
+
 void print_pose(const Robot& robot, const JointVector& q, const Eigen::Isometry3d& flange) {
   std::string at;
   for (int i = 0; i < robot.chain.size(); ++i) {
@@ -177,7 +209,7 @@ void print_pose(const Robot& robot, const JointVector& q, const Eigen::Isometry3
 }
 
 std::string pose_json(const Robot& robot, const JointVector& q, const Eigen::Isometry3d& flange,
-                      const std::vector<std::string>& warnings) {
+                      const LinkInertias& inertias, const std::vector<std::string>& warnings) {
   const Eigen::Quaterniond turn(flange.linear());
   nlohmann::ordered_json json;
   json["position_mm"] = components_mm(flange.translation());
@@ -194,52 +226,18 @@ std::string pose_json(const Robot& robot, const JointVector& q, const Eigen::Iso
     if (!joint.endless) one["limits_" + unit] = {border(joint, joint.lower), border(joint, joint.upper)};
     json["joints"].push_back(one);
   }
+  if (!robot.masses.empty()) json["links"] = links_json(robot, inertias);
   for (const ControllerAngles& angles : controller_angles(flange.linear()))
     json["orientation"][angles.key] = angles.values;
   json["warnings"] = warnings;
   return json.dump();
 }
 
-void print_comparison(const DataSet& data, const PendantComparison& comparison) {
-  fmt::print("{}: {} poses read off the controller; the description is off by {:.3f} mm at most.\n", data.file,
-             data.poses.size(), millimetres(*std::ranges::max_element(comparison.errors_m)));
-  if (comparison.agrees) {
-    fmt::print("It agrees with the controller{}\n",
-               comparison.findings.empty() ? "." : ", as far as these poses tell:");
-    for (const std::string& finding : comparison.findings) fmt::print("  {}\n", finding);
-    return;
-  }
-  for (const std::string& finding : comparison.findings) fmt::print("  {}\n", finding);
-  fmt::print("\n  {:12} {:>10}\n", "pose", "off by, mm");
-  for (std::size_t i = 0; i < data.poses.size(); ++i)
-    fmt::print("  {:12} {:10.3f}\n", data.poses[i].pose_id, millimetres(comparison.errors_m[i]));
-}
-
-std::string comparison_json(const DataSet& data, const PendantComparison& comparison) {
-  nlohmann::ordered_json json{{"agrees", comparison.agrees},
-                              {"explained", comparison.explained},
-                              {"findings", comparison.findings},
-                              {"poses", nlohmann::ordered_json::array()}};
-  for (std::size_t i = 0; i < data.poses.size(); ++i)
-    json["poses"].push_back({{"id", data.poses[i].pose_id}, {"off_by_mm", millimetres(comparison.errors_m[i])}});
-  return json.dump();
-}
-
-ExitCode compare(const ShowOptions& options, const Robot& robot) {
-  const DataSet data = read_pendant_poses(options.compare, robot);
-  if (data.poses.empty()) throw InputError({options.compare, 0}, "", "holds no poses");
-  const PendantComparison comparison = compare_with_pendant(data);
-  if (options.json) {
-    fmt::print("{}\n", comparison_json(data, comparison));
-  } else {
-    print_comparison(data, comparison);
-  }
-  return comparison.agrees ? ExitCode::done : ExitCode::contradiction;
-}
-
 ExitCode run_show(const ShowOptions& options) {
   const Robot robot = load_robot(options.file);
-  if (!options.compare.empty()) return compare(options, robot);
+  if (!options.compare.empty())
+    return print_comparison(options.compare, robot, options.json) ? ExitCode::done : ExitCode::contradiction;
+  const LinkInertias inertias = load_link_inertias(options.file);
   const JointVector q =
       options.at.empty() && robot.home.size() > 0 ? robot.home : joints_asked(options.at, robot.chain);
   const Eigen::Isometry3d flange = forward(robot.chain, q);
@@ -248,11 +246,12 @@ ExitCode run_show(const ShowOptions& options) {
   for (const std::string& warning : warnings) fmt::print(stderr, "{}: {}\n", options.file, warning);
   if (!options.picture.empty()) write_named(options.picture, arm_picture(robot, q), options.file, options.force);
   if (options.json) {
-    fmt::print("{}\n", pose_json(robot, q, flange, warnings));
+    fmt::print("{}\n", pose_json(robot, q, flange, inertias, warnings));
     return ExitCode::done;
   }
   print_joints(robot);
   print_table(robot);
+  print_links(robot, inertias);
   print_pose(robot, q, flange);
   if (!options.picture.empty()) fmt::print("\nDrawn in {}\n", options.picture);
   return ExitCode::done;

@@ -226,8 +226,9 @@ TEST(WrittenFormats, CorrectedProgramsHaveTheKeysOfThePage) {
   std::ostringstream angles, pose;
   angles.precision(12);
   pose.precision(12);
-  angles << "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad\n";
-  for (Eigen::Index i = 0; i < 6; ++i) angles << (i == 0 ? "" : ",") << joints[i];
+  angles << "q1_rad,q2_rad,q3_rad,q4_rad,q5_rad,q6_rad,payload_kg\n";
+  for (Eigen::Index i = 0; i < 6; ++i) angles << joints[i] << ',';
+  angles << "0.5";
   pose << "x_m,y_m,z_m,qw,qx,qy,qz\n";
   for (const double coordinate : tool.translation()) pose << coordinate << ',';
   pose << turn.w() << ',' << turn.x() << ',' << turn.y() << ',' << turn.z();

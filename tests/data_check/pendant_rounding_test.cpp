@@ -63,6 +63,28 @@ TEST(PendantRounding, OfAnglesIsTolerated) {
   }
 }
 
+/// The same poses, angles to thousandths of a radian and positions to millimetres, as metres of three decimals.
+DataSet shown_in_rad_and_m(const Chain& described, int poses, std::uint64_t seed) {
+  DataSet data = shown_to(1e-6, elbow(), described, poses, seed);
+  for (MeasuredPose& pose : data.poses) {
+    for (double& angle : pose.joints) angle = 1e-3 * std::round(1e3 * angle);
+    pose.position_m = pose.position_m->unaryExpr([](double value) { return 1e-3 * std::round(1e3 * value); });
+  }
+  return data;
+}
+
+TEST(PendantRounding, OfRadiansAndMetresIsTolerated) {
+  for (const int poses : {6, 12, 20}) {
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const PendantComparison comparison = compare_with_pendant(shown_in_rad_and_m(elbow(), poses, 4500 + seed));
+      EXPECT_TRUE(comparison.agrees) << poses << ' ' << seed;
+      EXPECT_THAT(comparison.findings, Contains(HasSubstr("rounded (angles to 0.001 rad, positions to 1 mm)")));
+    }
+  }
+  const Chain longer = mistaken([](Chain& chain) { chain.joints[1].a_m += 0.03; });
+  EXPECT_FALSE(compare_with_pendant(shown_in_rad_and_m(longer, 12, 4506)).agrees);
+}
+
 TEST(PendantRounding, ToMoreDigitsKeepsTheLimit) {
   const PendantRounding fine(shown_to(0.01, elbow(), elbow(), 8, 4401));
   EXPECT_FALSE(fine.is_coarse());

@@ -62,5 +62,29 @@ TEST(PlannedPrograms, LeaveOutWhatNoFreeWayLeadsToAndSaySo) {
   EXPECT_GE(written, 5);
 }
 
+TEST(PlannedPrograms, SayWhereTheRailStandsOrThatTheyCannot) {
+  Chain arm = wrist_arm();
+  Joint rail;
+  rail.type = JointType::prismatic;
+  rail.upper = 3.0;
+  arm.joints.insert(arm.joints.begin(), rail);
+  const Plan plan = plan_with_a_pose_by_hand(arm);
+  int written = 0;
+  for (const Language& language : all_languages()) {
+    const std::string text = planned_program(plan, arm, language);
+    if (text.empty()) continue;
+    SCOPED_TRACE(language.name);
+    ++written;
+    const Program program = read_program(language, text, "program." + std::string(written_ending(language)), arm);
+    ASSERT_EQ(program.targets.size(), plan.way.stops.size());
+    for (std::size_t i = 0; i < program.targets.size(); ++i)
+      EXPECT_LT((stated_joints(program.targets[i]) - plan.way.stops[i].joints).cwiseAbs().maxCoeff(), 1e-6);
+  }
+  EXPECT_GE(written, 5);
+  EXPECT_THAT(programs_left_out(plan, arm), testing::AllOf(testing::HasSubstr("URScript"), testing::HasSubstr("slides"),
+                                                           testing::Not(testing::HasSubstr("KRL"))));
+  EXPECT_EQ(programs_left_out(plan_with_a_pose_by_hand(wrist_arm()), wrist_arm()), "");
+}
+
 }  // namespace
 }  // namespace demecal

@@ -7,6 +7,7 @@
 #include "errors/input_error.hpp"
 #include "kinematics/forward.hpp"
 #include "languages/written_program.hpp"
+#include "parsed_programs/payload_flow.hpp"
 
 namespace demecal {
 namespace {
@@ -151,6 +152,53 @@ TEST(Readers, EndWithFramesOrASentence) {
         ++refused;
       }
       marked_line(with_mark(text, row_of(language), "corrected by demecal"));
+    }
+  }
+  EXPECT_GT(read, 200);
+  EXPECT_GT(refused, 200);
+}
+
+/// The same for arms on a rail, and with statements that set the payload.
+TEST(Readers, OfArmsOnRailsAndPayloadsEndWithAProgramOrASentence) {
+  RandomStream stream{7405};
+  Chain arm = wrist_arm();
+  Joint rail;
+  rail.type = JointType::prismatic;
+  rail.upper = 3.0;
+  arm.joints.insert(arm.joints.begin(), rail);
+  const std::vector<std::pair<WrittenIn, std::string>> programs{
+      {WrittenIn::krl,
+       "DEF a()\nLOAD_DATA[2]={M 12.5,CM {X 0,Y 0,Z 9,A 0,B 0,C 0}}\n$LOAD=LOAD_DATA[2]\n$BASE=$ROBROOT\nPTP {A1 1,A2 "
+       "2,A3 3,A4 4,A5 5,A6 6,E1 700}\nWHILE TRUE\n$LOAD.M=3\nfetch()\nENDWHILE\nEND\nDEF fetch()\n$LOAD={M 4}\n"
+       "LIN {X 1,Y 2,Z 3,A 4,B 5,C 6,E1 800}\nEND\n"},
+      {WrittenIn::rapid,
+       "MODULE m\nPERS loaddata part1:=[5.5,[50,0,50],[1,0,0,0],0,0,0];\nPROC a()\nGripLoad part1;\nMoveAbsJ "
+       "[[1,2,3,4,5,6],[700,9E9,9E9,9E9,9E9,9E9]],v9,fine,tool0;\nGripLoad load0;\nENDPROC\nENDMODULE\n"},
+      {WrittenIn::yaskawa_jbi,
+       "/JOB\n//POS\n///NPOS 2,2,0,1,1,0\n///POSTYPE ROBOT\n///RECTAN\nC00000=1,2,3,4,5,6\nC00001=1,2,3,4,5,7\n"
+       "BC00000=700.5\nBC00001=800\nP00002=1,2,3,4,5,6\nBP00002=5\n//INST\nNOP\nMOVL C00000 BC00000 V=5\nMOVJ C00001 "
+       "BC00001 VJ=5\nMOVJ PX002 VJ=5\nEND\n"},
+      {WrittenIn::kawasaki_as,
+       ".PROGRAM a()\nWEIGHT 6,0,0,100\nJMOVE #h\nWEIGHT 2.5\nLMOVE p\n.END\n.TRANS\np 1 2 3 4 5 6 "
+       "9\n.END\n.JOINTS\n#h "
+       "1 2 3 4 5 6 700\n.END\n"},
+      {WrittenIn::csv,
+       "id,x_mm,y_mm,z_mm,qw,qx,qy,qz,e1_mm,payload_kg\na,1,2,3,1,0,0,0,700,2\nb,1,2,3,1,0,0,0,800,2\n"}};
+  int read = 0, refused = 0;
+  for (int repetition = 0; repetition < 500; ++repetition) {
+    for (const auto& [language, whole] : programs) {
+      const std::string text = disturbed(stream, whole);
+      try {
+        const Program program = with_followed_payloads(read_program(language, text, "p", arm));
+        expect_sound(program, text);
+        for (const Target& target : program.targets) {
+          EXPECT_TRUE(stated_joints(target).allFinite()) << text;
+          if (target.payload_kg) EXPECT_GE(*target.payload_kg, 0.0);
+        }
+        ++read;
+      } catch (const InputError&) {
+        ++refused;
+      }
     }
   }
   EXPECT_GT(read, 200);

@@ -126,6 +126,21 @@ TEST(Apply, CorrectsValAndCsvFilesAndWritesNothingWhereSomethingIsWrong) {
   EXPECT_EQ(applied.apply("g.txt", "hello\n").code, 11);
 }
 
+TEST(Apply, SaysWhatATextWithoutMotionsIs) {
+  Applied applied;
+  const Ended none = applied.apply("hello.ls", "Hello, world.\n");
+  EXPECT_EQ(none.code, 11);
+  EXPECT_NE(none.err.find("hello.ls: is no program in FANUC"), std::string::npos) << none.err;
+  EXPECT_FALSE(applied.wrote("hello.ls"));
+  const std::string program = "/PROG  HELLO\n/MN\n   1:  DO[1]=ON ;\n/POS\n/END\n";
+  const Ended still = applied.apply("still.ls", program);
+  EXPECT_EQ(still.code, 0);
+  EXPECT_NE(still.err.find("still.ls: it holds no motion and no point: there is nothing to correct"), std::string::npos)
+      << still.err;
+  EXPECT_EQ(applied.result("still.ls"), program);
+  EXPECT_EQ(applied.apply("strict.ls", program, {"--strict"}).code, 11);
+}
+
 TEST(Apply, WritesTheFilesOfAProgramIntoAFolder) {
   Applied applied;
   const std::string source = "DEF a()\nPTP XP1\nEND\n";

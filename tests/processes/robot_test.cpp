@@ -42,6 +42,32 @@ TEST(Robot, IsImportedAndShownWhereItsUrdfHasIt) {
   EXPECT_EQ(run("demecal", {"robot", "import", kSeed, "--out", robot}).code, 0);
 }
 
+TEST(Robot, HasItsMassesAndInertiasShown) {
+  SmallJob job;
+  std::ostringstream seed;
+  seed << std::ifstream(kSeed).rdbuf();
+  std::string urdf = seed.str();
+  const std::string inertial =
+      "<inertial><mass value=\"2\"/><origin xyz=\"0 0 0.1\"/><inertia ixx=\"0.02\" ixy=\"0.001\" ixz=\"0\" "
+      "iyy=\"0.03\" iyz=\"0\" izz=\"0.04\"/></inertial>";
+  const std::size_t at = urdf.find("<joint");
+  ASSERT_NE(at, std::string::npos);
+  urdf.insert(at,
+              "<joint name=\"weighed\" type=\"fixed\"><parent link=\"tool0\"/><child link=\"weight\"/></joint>\n"
+              "<link name=\"weight\">" +
+                  inertial + "</link>\n");
+  std::ofstream(job.path("weighed.urdf")) << urdf;
+  const std::string robot = job.path("robot.yaml");
+  const Ended imported =
+      run("demecal", {"robot", "import", job.path("weighed.urdf"), "--tip", "tool0", "--out", robot});
+  ASSERT_EQ(imported.code, 0) << imported.err;
+  EXPECT_THAT(job.text("robot.yaml"), HasSubstr("inertia_kgm2: ["));
+  const Json links = Json::parse(run("demecal", {"robot", "show", robot, "--json"}).out)["links"];
+  ASSERT_EQ(links.size(), 2u);
+  EXPECT_EQ(links[1]["inertia_kgm2"].size(), 6u);
+  EXPECT_THAT(run("demecal", {"robot", "show", robot}).out, HasSubstr("principal moments"));
+}
+
 TEST(Robot, BeyondItsLimitsIsShownWithAWarning) {
   SmallJob job;
   const std::string robot = job.path("robot.yaml");

@@ -48,7 +48,8 @@ TEST(KrlFrames, AreThoseThatHoldWhereTheMotionStands) {
 
 TEST(KrlFrames, ThatAreComputedAreUnknown) {
   const std::string lin = "LIN {X 10,Y 0,Z 0,A 0,B 0,C 0}\n";
-  for (const char* statement : {"$BASE=my_base\n", "$BASE=BASE_DATA[3]\n", "BAS(#BASE,n)\n", "$BASE.X=5\n",
+  for (const char* statement : {"$ROBROOT={X 9,Y 0,Z 0,A 0,B 0,C 0}\n$BASE=$WORLD\n", "$BASE=$ROBROOT:shift\n",
+                                "$BASE=my_base\n", "$BASE=BASE_DATA[3]\n", "BAS(#BASE,n)\n", "$BASE.X=5\n",
                                 "$BASE=$WORLD:shift\n", "BASE_DATA[3]=$NULLFRAME:shift\n$BASE=BASE_DATA[3]\n",
                                 "$BASE={X x1,Y 0,Z 0,A 0,B 0,C 0}\n", "FDAT_ACT=somewhere\n"}) {
     EXPECT_NE(only_target(WrittenIn::krl, statement + lin).frames.unknown_frame, "") << statement;

@@ -184,7 +184,16 @@ std::string sdf_of(const UrdfFile& urdf, RandomStream& stream) {
     if (link.mass) {
       const Eigen::Vector3d& c = link.mass->centre_m;
       inside += "<inertial><mass>" + numbers_text({link.mass->mass_kg}) + "</mass><pose>" +
-                numbers_text({c.x(), c.y(), c.z(), 0.0, 0.0, 0.0}) + "</pose></inertial>";
+                numbers_text({c.x(), c.y(), c.z(), 0.0, 0.0, 0.0}) + "</pose>";
+      if (link.inertia_kgm2) {
+        const auto [xx, xy, xz, yy, yz, zz] = matrix_elements(*link.inertia_kgm2);
+        const auto element = [](const std::string& name, double value) {
+          return '<' + name + '>' + numbers_text({value}) + "</" + name + '>';
+        };
+        inside += "<inertia>" + element("ixx", xx) + element("ixy", xy) + element("ixz", xz) + element("iyy", yy) +
+                  element("iyz", yz) + element("izz", zz) + "</inertia>";
+      }
+      inside += "</inertial>";
     }
     xml += link.name == "world" ? "" : sdf_link(link.name, inside);
   }
@@ -221,6 +230,12 @@ void expect_same_arm(const UrdfArm& sdf, const UrdfArm& urdf) {
   for (std::size_t i = 0; i < sdf.masses.size(); ++i) {
     EXPECT_NEAR(sdf.masses[i].mass_kg, urdf.masses[i].mass_kg, 1e-9);
     EXPECT_LT((sdf.masses[i].centre_m - urdf.masses[i].centre_m).norm(), 1e-9);
+  }
+  ASSERT_EQ(sdf.inertias.size(), urdf.inertias.size());
+  for (std::size_t i = 0; i < sdf.inertias.size(); ++i) {
+    ASSERT_EQ(sdf.inertias[i].has_value(), urdf.inertias[i].has_value());
+    if (sdf.inertias[i])
+      EXPECT_LT((*sdf.inertias[i] - *urdf.inertias[i]).norm(), 1e-9 * (1.0 + urdf.inertias[i]->norm()));
   }
 }
 

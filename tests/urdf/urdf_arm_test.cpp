@@ -66,6 +66,42 @@ TEST(UrdfArm, AddsUpTheMassesOfWhatMovesWithAJoint) {
   EXPECT_THAT(arm_between(urdf, {}, {}).tip, "b");  // the box is fixed on the way
 }
 
+TEST(UrdfArm, AddsUpTheInertiasOfWhatMovesWithAJointAboutTheCommonCentre) {
+  const auto body = [](const char* kg, const char* origin, const char* inertia) {
+    return "<inertial><mass value=\"" + std::string(kg) + "\"/><origin " + origin + "/><inertia " + inertia +
+           "/></inertial>";
+  };
+  const std::string round = R"(ixx="0.1" ixy="0" ixz="0" iyy="0.1" iyz="0" izz="0.1")",
+                    rod = R"(ixx="0" ixy="0" ixz="0" iyy="0.2" iyz="0" izz="0.2")";
+  const auto arm_of = [&](const std::string& box, const std::string& b) {
+    const std::string text =
+        robot_xml(link_xml("base") + link_xml("a", body("3", R"(xyz="0 0 0")", round.c_str())) + link_xml("box", box) +
+                  link_xml("b", b) + joint_xml("j1", "revolute", "base", "a", kTurns) +
+                  joint_xml("screws", "fixed", "a", "box", "<origin xyz=\"0.8 0 0\"/>") +
+                  joint_xml("j2", "revolute", "a", "b", kTurns));
+    const UrdfFile urdf = parse_urdf(text, "arm.urdf");
+    return arm_between(urdf, {}, "b");
+  };
+  // A rod along x in its own axes, which stand a quarter turn about z: along y in the link's.
+  const UrdfArm arm = arm_of(body("1", R"(xyz="0 0 0")", round.c_str()),
+                             body("2", R"(xyz="0 0 0.1" rpy="0 0 1.5707963267948966")", rod.c_str()));
+  ASSERT_EQ(arm.inertias.size(), 2u);
+  const double by_parallel_axes = 3.0 * 0.2 * 0.2 + 1.0 * 0.6 * 0.6;
+  EXPECT_LT((*arm.inertias[0] -
+             Eigen::Matrix3d(Eigen::Vector3d(0.2, 0.2 + by_parallel_axes, 0.2 + by_parallel_axes).asDiagonal()))
+                .norm(),
+            1e-15);
+  EXPECT_LT((*arm.inertias[1] - Eigen::Matrix3d(Eigen::Vector3d(0.2, 0.0, 0.2).asDiagonal())).norm(), 1e-15);
+  const UrdfArm wrong = arm_of(body("1", R"(xyz="0 0 0")", R"(ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="3")"),
+                               body("2", R"(xyz="0 0 0.1")", rod.c_str()));
+  EXPECT_FALSE(wrong.inertias[0]);
+  EXPECT_TRUE(wrong.inertias[1]);
+  EXPECT_THAT(wrong.notes, ElementsAre(HasSubstr("the inertia of link box is left out: it must have principal moments"),
+                                       HasSubstr("no inertia is written of what moves with link box")));
+  const std::string bare = "<inertial><mass value=\"1\"/></inertial>";
+  EXPECT_FALSE(arm_of(bare, body("2", R"(xyz="0 0 0.1")", rod.c_str())).inertias[0]);
+}
+
 TEST(UrdfArm, AsksForTheTipWhereSeveralArmsBeginAndTakesTool0OfFixedEnds) {
   const std::string second = link_xml("c") + joint_xml("j3", "revolute", "base", "c", kTurns);
   EXPECT_THAT(complaint_of(two_joints(second)), AllOf(HasSubstr("tip, c"), HasSubstr("--tip")));

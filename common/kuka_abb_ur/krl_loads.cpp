@@ -1,0 +1,22 @@
+#include "kuka_abb_ur/krl_loads.hpp"
+
+#include <algorithm>
+
+#include "parsed_programs/payload_values.hpp"
+
+namespace demecal::inline kuka_abb_ur {
+
+std::optional<double> stated_load_kg(std::string_view code, std::size_t at) {
+  constexpr std::string_view kMass = "{m ";
+  const std::size_t begin = std::min(code.find_first_not_of(" \t", at), code.size());
+  if (code.substr(begin).starts_with(kMass)) return number_argument(code, begin + kMass.size());
+  return declared_load_kg(code, load_name(code, at), "=", kMass);
+}
+
+std::optional<double> changed_load_kg(std::string_view code, std::size_t at) {
+  if (load_name(code, at) != "m") return std::nullopt;
+  const std::size_t sign = code.find_first_not_of(" \t", code.find('m', at) + 1);
+  return sign < code.size() && code[sign] == '=' ? number_argument(code, sign + 1) : std::nullopt;
+}
+
+}  // namespace demecal::inline kuka_abb_ur

@@ -1,0 +1,16 @@
+// KRL's $LOAD: what the arm carries beyond its flange.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+namespace demecal::inline kuka_abb_ur {
+
+/// The arguments are those of PayloadWords::kg.
+/// Behind "$LOAD=": {M 5.0,CM {...}}, or the name of what the program declares so; below 0 the controller's own counts.
+std::optional<double> stated_load_kg(std::string_view code, std::size_t at);
+/// Behind "$LOAD.": M=6; another part says nothing of the mass.
+std::optional<double> changed_load_kg(std::string_view code, std::size_t at);
+
+}  // namespace demecal::inline kuka_abb_ur
