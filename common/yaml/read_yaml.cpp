@@ -2,6 +2,7 @@
 
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
+#include <algorithm>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -16,8 +17,13 @@
 namespace demecal::inline yaml {
 namespace {
 
-constexpr int kDeepest = 32;                // an alias within its own anchor would have no end
-constexpr std::size_t kMostNodes = 100000;  // aliases of aliases grow beyond any memory
+constexpr int kDeepest = 32;  // an alias within its own anchor would have no end
+
+/// Aliases of aliases grow beyond any memory, but a model may state the covariance of a thousand numbers.
+std::size_t most_values(const std::string& text) {
+  constexpr std::size_t kAlways = 100000, kBytesEach = 8;
+  return std::max(kAlways, text.size() / kBytesEach);
+}
 
 std::size_t line_of(const YAML::Mark& mark) {
   return mark.is_null() ? 0 : static_cast<std::size_t>(mark.line) + 1;
@@ -26,11 +32,11 @@ std::size_t line_of(const YAML::Mark& mark) {
 /// Turns yaml-cpp's nodes into ours.
 class Conversion {
  public:
-  explicit Conversion(std::string file) : file_(std::move(file)) {}
+  Conversion(std::string file, std::size_t most_values) : file_(std::move(file)), most_values_(most_values) {}
 
   YamlNode convert(const YAML::Node& source, std::size_t line, const std::string& key, int depth = 0) {
     if (depth > kDeepest) throw InputError({file_, line}, "", key + " is nested too deeply");
-    if (++nodes_ > kMostNodes) throw InputError({file_, line}, "", "holds too many values");
+    if (++nodes_ > most_values_) throw InputError({file_, line}, "", "holds too many values");
     YamlNode node;
     node.file = file_;
     node.line = line;
@@ -69,7 +75,7 @@ class Conversion {
   }
 
   std::string file_;
-  std::size_t nodes_ = 0;
+  std::size_t most_values_, nodes_ = 0;
 };
 
 std::string line_text(const std::string& text, std::size_t line) {
@@ -89,7 +95,7 @@ std::string quoting_hint(const std::string& line) {
 /// where one begins with a comma.
 class Outline final : public YAML::EventHandler {
  public:
-  explicit Outline(std::string file) : file_(std::move(file)) {}
+  Outline(std::string file, std::size_t most_values) : file_(std::move(file)), most_values_(most_values) {}
 
   bool is_null() const { return is_null_; }
   std::size_t line() const { return line_; }
@@ -116,18 +122,18 @@ class Outline final : public YAML::EventHandler {
       is_null_ = null;
       line_ = line_of(mark);
     }
-    if (++values_ > kMostNodes) throw InputError({file_, line_of(mark)}, "", "holds too many values");
+    if (++values_ > most_values_) throw InputError({file_, line_of(mark)}, "", "holds too many values");
   }
 
   std::string file_;
-  std::size_t values_ = 0, line_ = 0;
+  std::size_t most_values_, values_ = 0, line_ = 0;
   bool is_null_ = true;
 };
 
 void check_outline(const std::string& text, const std::string& file) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  Outline first(file), second(file);
+  Outline first(file, most_values(text)), second(file, most_values(text));
   if (!parser.HandleNextDocument(first) || first.is_null()) throw InputError({file, 0}, "", "is empty");
   if (parser.HandleNextDocument(second) && !second.is_null()) {
     throw InputError({file, second.line()}, "", "must hold one YAML document, not several");
@@ -145,7 +151,7 @@ YamlNode parse_yaml(const std::string& text, const std::string& file) {
     const std::size_t line = line_of(fault.mark);
     throw InputError({file, line}, "", "is not valid YAML: " + fault.msg + quoting_hint(line_text(text, line)));
   }
-  return Conversion(file).convert(found, line_of(found.Mark()), "");
+  return Conversion(file, most_values(text)).convert(found, line_of(found.Mark()), "");
 }
 
 YamlNode read_yaml(const std::filesystem::path& path) {

@@ -193,7 +193,7 @@ TEST(Readers, OfArmsOnRailsAndPayloadsEndWithAProgramOrASentence) {
         expect_sound(program, text);
         for (const Target& target : program.targets) {
           EXPECT_TRUE(stated_joints(target).allFinite()) << text;
-          if (target.payload_kg) EXPECT_GE(*target.payload_kg, 0.0);
+          EXPECT_GE(target.payload_kg.value_or(0.0), 0.0);
         }
         ++read;
       } catch (const InputError&) {

@@ -234,8 +234,8 @@ void expect_same_arm(const UrdfArm& sdf, const UrdfArm& urdf) {
   ASSERT_EQ(sdf.inertias.size(), urdf.inertias.size());
   for (std::size_t i = 0; i < sdf.inertias.size(); ++i) {
     ASSERT_EQ(sdf.inertias[i].has_value(), urdf.inertias[i].has_value());
-    if (sdf.inertias[i])
-      EXPECT_LT((*sdf.inertias[i] - *urdf.inertias[i]).norm(), 1e-9 * (1.0 + urdf.inertias[i]->norm()));
+    if (!sdf.inertias[i]) continue;
+    EXPECT_LT((*sdf.inertias[i] - *urdf.inertias[i]).norm(), 1e-9 * (1.0 + urdf.inertias[i]->norm()));
   }
 }
 

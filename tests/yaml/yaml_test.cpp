@@ -113,6 +113,13 @@ TEST(Yaml, SurvivesNestingWithoutEnd) {
   EXPECT_NE(complaint([&] { yaml(doubling); }), "");
 }
 
+TEST(Yaml, ReadsTheCovarianceOfAThousandNumbers) {
+  constexpr std::size_t kValues = 500500;
+  std::string triangle = "triangle: [-1.2345e-05";
+  for (std::size_t i = 1; i < kValues; ++i) triangle += ", -1.2345e-05";
+  EXPECT_EQ(yaml(triangle + "]\n").at("triangle").children.size(), kValues);
+}
+
 TEST(Yaml, RefusesACommaThatWouldBeginDocumentsWithoutEnd) {
   EXPECT_NE(complaint([] { yaml(", a: 1\n"); }), "");
 }
