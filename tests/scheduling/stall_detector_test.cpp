@@ -14,7 +14,7 @@ using ::testing::IsEmpty;
 constexpr milliseconds kPatience{100};
 constexpr IslandKey kFirst{0, 0}, kSecond{0, 1}, kThird{0, 2};
 
-StallDetector::Time at(int time_ms) {
+StallDetector::Time moment(int time_ms) {
   return StallDetector::Time{} + milliseconds(time_ms);
 }
 
@@ -28,42 +28,42 @@ Archipelago ring(bool asynchronous = false) {
 }
 
 TEST(StallDetector, IslandsThatNeverBeganAreStalled) {
-  const StallDetector detector(ring(), at(0));
-  EXPECT_THAT(detector.stalled(at(99), kPatience), IsEmpty());
-  EXPECT_THAT(detector.stalled(at(101), kPatience), ElementsAre(kFirst, kSecond, kThird));
+  const StallDetector detector(ring(), moment(0));
+  EXPECT_THAT(detector.stalled(moment(99), kPatience), IsEmpty());
+  EXPECT_THAT(detector.stalled(moment(101), kPatience), ElementsAre(kFirst, kSecond, kThird));
 }
 
 TEST(StallDetector, AnIslandThatWaitsForItsSourceIsNot) {
-  StallDetector detector(ring(), at(0));
-  for (const IslandKey island : {kFirst, kSecond}) detector.reached(island, 1, at(1));
+  StallDetector detector(ring(), moment(0));
+  for (const IslandKey island : {kFirst, kSecond}) detector.reached(island, 1, moment(1));
   // The first waits for the third, and the second has all it needs.
-  EXPECT_THAT(detector.stalled(at(500), kPatience), ElementsAre(kSecond, kThird));
+  EXPECT_THAT(detector.stalled(moment(500), kPatience), ElementsAre(kSecond, kThird));
 }
 
 TEST(StallDetector, InAnAsynchronousRunNobodyWaits) {
-  StallDetector detector(ring(true), at(0));
-  for (const IslandKey island : {kFirst, kSecond}) detector.reached(island, 1, at(1));
-  EXPECT_THAT(detector.stalled(at(500), kPatience), ElementsAre(kFirst, kSecond, kThird));
+  StallDetector detector(ring(true), moment(0));
+  for (const IslandKey island : {kFirst, kSecond}) detector.reached(island, 1, moment(1));
+  EXPECT_THAT(detector.stalled(moment(500), kPatience), ElementsAre(kFirst, kSecond, kThird));
 }
 
 TEST(StallDetector, WhoIsGivenAnIslandHasTimeAnew) {
-  StallDetector detector(ring(), at(0));
-  detector.assigned(kSecond, 0, at(450));
-  EXPECT_THAT(detector.stalled(at(500), kPatience), ElementsAre(kFirst, kThird));
+  StallDetector detector(ring(), moment(0));
+  detector.assigned(kSecond, 0, moment(450));
+  EXPECT_THAT(detector.stalled(moment(500), kPatience), ElementsAre(kFirst, kThird));
 }
 
 TEST(StallDetector, AFinishedIslandIsNeverStalledAndKeepsNobodyWaiting) {
-  StallDetector detector(ring(), at(0));
-  for (const IslandKey island : {kFirst, kSecond}) detector.reached(island, 1, at(1));
+  StallDetector detector(ring(), moment(0));
+  for (const IslandKey island : {kFirst, kSecond}) detector.reached(island, 1, moment(1));
   detector.finished(kThird);
-  EXPECT_THAT(detector.stalled(at(500), kPatience), ElementsAre(kFirst, kSecond));
+  EXPECT_THAT(detector.stalled(moment(500), kPatience), ElementsAre(kFirst, kSecond));
 }
 
 TEST(StallDetector, WhereEpochsTakeLongPatienceIsLonger) {
-  StallDetector detector(ring(), at(0));
-  detector.reached(kFirst, 1, at(400));
-  EXPECT_THAT(detector.stalled(at(1500), kPatience), IsEmpty());
-  EXPECT_THAT(detector.stalled(at(1700), kPatience), ElementsAre(kSecond, kThird));
+  StallDetector detector(ring(), moment(0));
+  detector.reached(kFirst, 1, moment(400));
+  EXPECT_THAT(detector.stalled(moment(1500), kPatience), IsEmpty());
+  EXPECT_THAT(detector.stalled(moment(1700), kPatience), ElementsAre(kSecond, kThird));
 }
 
 }  // namespace
