@@ -41,7 +41,7 @@ endforeach()
 install(FILES ${CMAKE_SOURCE_DIR}/idl/calibration.idl ${CMAKE_SOURCE_DIR}/idl/ros2.idl DESTINATION ${shared}/idl COMPONENT programs)
 install(PROGRAMS ${CMAKE_SOURCE_DIR}/scripts/security ${CMAKE_SOURCE_DIR}/scripts/workers DESTINATION ${shared}/scripts COMPONENT programs)
 # Documents stand to each other as in the source tree, so that their links lead somewhere.
-foreach(document README.md docs/GUIDE.md docs/FORMATS.md docs/EVALUATION.md docs/ARCHITECTURE.md docs/CONTRIBUTING.md configs/dds/README.md scripts/README.md idl/calibration.idl idl/ros2.idl)
+foreach(document README.md docs/GUIDE.md docs/FORMATS.md docs/EVALUATION.md docs/ARCHITECTURE.md docs/CONTRIBUTING.md configs/dds/README.md configs/dds/discovery-server.xml scripts/README.md idl/calibration.idl idl/ros2.idl)
   cmake_path(GET document PARENT_PATH folder)
   install(FILES ${CMAKE_SOURCE_DIR}/${document} DESTINATION ${CMAKE_INSTALL_DOCDIR}/${folder} COMPONENT programs)
 endforeach()

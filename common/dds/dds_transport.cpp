@@ -12,6 +12,7 @@
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 #include <type_traits>
 #include <utility>
@@ -51,14 +52,18 @@ class DdsTransport final : public Transport {
     inbox_.id = participant_.id();
     inbox_.secured = !options.security.empty();
     inbox_.name_of = [this](const ParticipantId& participant) { return participant_.name_of(participant); };
-    for (const Topic topic : kTopics)
-      if (topic != Topic::migrants) join_topic({topic, 0});
+    for (const Topic topic : kTopics) {
+      if (topic == Topic::migrants) continue;
+      if (reads(role, topic)) add_reader({topic, 0});
+      if (writes(role, topic)) writers_.add({topic, 0}, participant_.make_writer(topic, 0));
+    }
   }
 
   void publish(const Message& message) override;
   std::optional<Message> receive(milliseconds patience) override;
   void wake() override { inbox_.mailbox.wake(); }
   void follow_migrants(std::uint32_t joint) override;
+  void offer_migrants(std::uint32_t joint) override;
   void assert_alive() override;
   bool flush(milliseconds patience) override;
   RunId new_run() override { return run_of(participant_.id(), new_serial()); }
@@ -66,7 +71,7 @@ class DdsTransport final : public Transport {
   std::uint64_t rejected() const override { return inbox_.rejections.count(); }
 
  private:
-  void join_topic(DdsWriters::Channel channel);
+  void add_reader(DdsWriters::Channel channel);
   void note_status(const WorkerStatus& status);
   std::optional<WorkerStatus> status_due();
 
@@ -78,24 +83,29 @@ class DdsTransport final : public Transport {
   DdsWriters writers_;
   std::mutex mutex_;  ///< guards what follows
   std::map<DdsWriters::Channel, Owned<fastdds::DataReader>> readers_;
+  std::set<std::uint32_t> offered_;     ///< joints
   std::optional<WorkerStatus> status_;  ///< the last one published
   steady_clock::time_point status_published_;
 };
 
-void DdsTransport::join_topic(DdsWriters::Channel channel) {
+void DdsTransport::add_reader(DdsWriters::Channel channel) {
   const auto [topic, joint] = channel;
-  if (reads(role_, topic)) {
-    receivers_.push_back(make_receiver(topic, inbox_));
-    readers_.emplace(channel,
-                     participant_.make_reader(topic, joint, receivers_.back().get(), reads_reliably(role_, topic)));
-  }
-  if (writes(role_, topic)) writers_.add(channel, participant_.make_writer(topic, joint));
+  receivers_.push_back(make_receiver(topic, inbox_));
+  readers_.emplace(channel,
+                   participant_.make_reader(topic, joint, receivers_.back().get(), reads_reliably(role_, topic)));
 }
 
 void DdsTransport::follow_migrants(std::uint32_t joint) {
   const std::lock_guard lock(mutex_);
   const DdsWriters::Channel channel{Topic::migrants, joint};
-  if (!readers_.contains(channel)) join_topic(channel);
+  if (reads(role_, Topic::migrants) && !readers_.contains(channel)) add_reader(channel);
+}
+
+void DdsTransport::offer_migrants(std::uint32_t joint) {
+  const std::lock_guard lock(mutex_);
+  const DdsWriters::Channel channel{Topic::migrants, joint};
+  if (writes(role_, Topic::migrants) && offered_.insert(joint).second)
+    writers_.add(channel, participant_.make_writer(Topic::migrants, joint));
 }
 
 void DdsTransport::publish(const Message& message) {
@@ -163,6 +173,7 @@ class LeavingTransport final : public Transport {
   std::optional<Message> receive(milliseconds patience) override { return transport_->receive(patience); }
   void wake() override { transport_->wake(); }
   void follow_migrants(std::uint32_t joint) override { transport_->follow_migrants(joint); }
+  void offer_migrants(std::uint32_t joint) override { transport_->offer_migrants(joint); }
   void assert_alive() override { transport_->assert_alive(); }
   bool flush(milliseconds patience) override { return transport_->flush(patience); }
   RunId new_run() override { return transport_->new_run(); }

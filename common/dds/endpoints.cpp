@@ -11,6 +11,7 @@
 #include <functional>
 #include <string>
 
+#include "dds/type_objects.hpp"
 #include "protocol/message_bytes.hpp"
 #include "transport/transport.hpp"
 
@@ -110,9 +111,7 @@ void set_both_ends(Qos& qos, Topic topic) {
   }
 }
 
-}  // namespace
-
-fastdds::TypeSupport topic_type(Topic topic) {
+fastdds::TypeSupport type_of_samples(Topic topic) {
   if (is_large(topic)) return message_type<MessagePart>("demecal::wire::MessagePart");
   if (topic == Topic::progress) return message_type<PlacedProgress>("demecal::wire::PlacedProgress");
   if (topic == Topic::control) return message_type<Control>("demecal::wire::Control");
@@ -120,6 +119,14 @@ fastdds::TypeSupport topic_type(Topic topic) {
   if (topic == Topic::cause) return message_type<CauseFound>("demecal::wire::CauseFound");
   if (topic == Topic::final_figures) return message_type<FinalFigures>("demecal::wire::FinalFigures");
   return message_type<WorkerStatus>("demecal::wire::WorkerStatus");
+}
+
+}  // namespace
+
+fastdds::TypeSupport topic_type(Topic topic) {
+  fastdds::TypeSupport type = type_of_samples(topic);
+  add_type_object(*type, topic);
+  return type;
 }
 
 eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {

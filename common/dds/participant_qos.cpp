@@ -33,9 +33,10 @@ constexpr std::uint32_t kSocketBuffer_bytes = 4 << 20;
 constexpr std::uint32_t kParticipantsPerHost = 100;
 constexpr milliseconds kParticipantLease{5000};
 constexpr milliseconds kParticipantAnnouncement{1000};
-constexpr milliseconds kFirstAnnouncements{30};
-/// So many of them, closer together: whoever starts beside another may miss the first.
-constexpr std::uint32_t kFirst = 8;
+constexpr milliseconds kFirstAnnouncements{60};
+/// So many of them, closer together: whoever starts beside another may miss the first. Each goes to all ports where a
+/// participant of the host may listen, which costs most of what a short run does beside breeding.
+constexpr std::uint32_t kFirst = 4;
 constexpr milliseconds kServerSync{200};
 
 std::vector<std::string> bound_addresses(const DdsOptions& options) {

@@ -43,7 +43,7 @@ void DdsWriters::add(Channel channel, Owned<fastdds::DataWriter> writer) {
 
 DdsWriters::Writer& DdsWriters::writer(Channel channel) {
   const auto found = writers_.find(channel);
-  DEMECAL_CHECK(found != writers_.end(), "joint=" << channel.second << " is not followed");
+  DEMECAL_CHECK(found != writers_.end(), "joint=" << channel.second << " is not offered");
   return found->second;
 }
 

@@ -106,16 +106,19 @@ void IslandHost::start_ready(const IsAwaited& is_awaited) {
 /// breed. Returns the time of now.
 WaitedShare::Time IslandHost::note_waiting() {
   const WaitedShare::Time now = std::chrono::steady_clock::now();
-  bool any_left = false;
+  bool any_left = false, any_waits = false;
   for (const auto& [place, island] : islands_) {
     const bool busy = is_busy(island);
     if (!busy && island->finished()) continue;
     any_left = true;
-    island->set_waiting(now, !busy && !island->is_ready(arrived_[place.first]));
+    const bool waits = !busy && !island->is_ready(arrived_[place.first]);
+    any_waits |= waits;
+    island->set_waiting(now, waits);
   }
   const double slots = options_.slots;
   const double idle = std::max(slots - static_cast<double>(busy_.size()), 0.0);
   slots_waited_.set(now, any_left ? idle : 0.0, any_left ? slots : 0.0);
+  waits_for_migrants_ = idle > 0.0 && any_waits;
   return now;
 }
 

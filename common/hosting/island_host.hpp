@@ -192,6 +192,8 @@ class IslandHost {
   std::shared_ptr<EpochBatch> collect();
 
   bool is_idle() const { return slots_.is_idle(); }
+  /// Whether a slot has no work, though islands are left to breed.
+  bool waits_for_migrants() const { return waits_for_migrants_; }
   /// A count that stands still while slots are busy means that they hang.
   std::uint64_t heartbeats() const { return slots_.heartbeats(); }
   /// Of the slots' time while there were islands to breed, the share without work.
@@ -209,6 +211,7 @@ class IslandHost {
   Islands islands_;
   std::map<std::shared_ptr<HostedIsland>, std::shared_ptr<EpochBatch>> busy_;
   WaitedShare slots_waited_;
+  bool waits_for_migrants_ = false;
   Slots<std::shared_ptr<EpochBatch>> slots_;  // last: its threads stop before what they use goes
 };
 

@@ -17,6 +17,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kHeartbeat = kLease / 5, kLeastHeartbeat = kLease / 10;
 constexpr std::chrono::milliseconds kShutdownTimeout{1000}, kBatchTimeout{200}, kIdleWait{10};
+/// How long reports wait at most while islands wait for migrants.
+constexpr std::chrono::milliseconds kReportDelay{100};
 constexpr std::chrono::milliseconds kAnnouncement{1000}, kIdleAfterRuns{1000};
 constexpr std::size_t kMostEarlyTasks = 65536, kMostEnded = 4096;
 
@@ -38,9 +40,11 @@ void Worker::serve(const std::atomic<bool>& stop) {
   announce(false);
   while (!stop) {
     keep_alive();
-    if (const std::optional<Message> message = transport_.receive(kHeartbeat)) receive(*message);
+    if (const std::optional<Message> message = transport_.receive(reports_.empty() ? kHeartbeat : kIdleWait))
+      receive(*message);
     while (const auto batch = host_.collect()) report(*batch);
     host_.start_ready([this](const HostedIsland& island) { return is_awaited_elsewhere(island); });
+    publish_due_reports();
   }
   hand_over_all();
   finish_batches();
@@ -90,6 +94,7 @@ void Worker::hand_over(const IslandOfRun& place) {
 }
 
 void Worker::publish_state(HostedIsland& island) {
+  publish_reports();
   if (!island.has_progressed()) return;
   if (auto progress = island.due_progress(options_.name, kAtOnce)) transport_.publish(std::move(*progress));
   transport_.publish(island.checkpoint(options_.name));
@@ -124,7 +129,7 @@ void Worker::exchange_with_new_owner(const IslandOfRun& place) {
     if (own.first != run) continue;
     if (std::ranges::count(island->sources(), key) > 0) transport_.follow_migrants(key.joint);
     if (std::ranges::count(island->consumers(), key) == 0) continue;
-    transport_.follow_migrants(own.second.joint);
+    transport_.offer_migrants(own.second.joint);
     island->send_all_recent();
     if (!host_.is_busy(island)) send_migrants(*island);
   }
@@ -143,7 +148,7 @@ void Worker::begin(const IslandTask& task) {
   for (const IslandKey& source : island->sources())
     if (is_elsewhere(task.run, source)) transport_.follow_migrants(source.joint);
   for (const IslandKey& consumer : island->consumers())
-    if (is_elsewhere(task.run, consumer)) transport_.follow_migrants(task.island.joint);
+    if (is_elsewhere(task.run, consumer)) transport_.offer_migrants(task.island.joint);
   island->send_all_recent();
   send_migrants(*island);
   // Whoever bred its last generation may have died before it could say so.
@@ -185,6 +190,7 @@ void Worker::take(const Migrants& migrants) {
 
 void Worker::take(const Control& control) {
   if (control.state == Control::State::running) return;
+  publish_reports();
   if (ended_.try_emplace(control.run, control.state).second) ended_in_order_.push_back(control.run);
   if (control.state == Control::State::cancelled)
     while (const std::optional<IslandOfRun> place = any_island_of(control.run)) hand_over(*place);
@@ -216,12 +222,24 @@ void Worker::report(const EpochBatch::Member& member) {
   if (!has_progressed) return;
   auto checkpoint = island.due_checkpoint(options_.name, checkpoint_interval());
   // Who goes on from a checkpoint reports nothing of the epochs before it.
-  if (auto progress = island.due_progress(options_.name, checkpoint ? kAtOnce : options_.progress_interval))
-    transport_.publish(std::move(*progress));
-  if (checkpoint) transport_.publish(std::move(*checkpoint));
+  auto progress = island.due_progress(options_.name, checkpoint ? kAtOnce : options_.progress_interval);
+  if (reports_.empty()) reports_due_ = std::chrono::steady_clock::now() + kReportDelay;
+  if (progress) reports_.emplace_back(std::move(*progress));
+  if (checkpoint) reports_.emplace_back(std::move(*checkpoint));
   if (!island.finished()) return;
+  publish_reports();
   if (!host_.has_unfinished(place.first)) announce(false);  // the share it waited, before the run can be over
   transport_.publish(island.outcome(options_.name));
+}
+
+/// Migrants come first: while islands wait for some, here or with others on the same processors, reports wait, too.
+void Worker::publish_due_reports() {
+  if (reports_.empty()) return;
+  if (!host_.waits_for_migrants() || std::chrono::steady_clock::now() >= reports_due_) publish_reports();
+}
+
+void Worker::publish_reports() {
+  for (; !reports_.empty(); reports_.pop_front()) transport_.publish(reports_.front());
 }
 
 bool Worker::is_finished(RunId run) const {

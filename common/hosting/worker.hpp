@@ -56,6 +56,8 @@ class Worker {
   void publish_state(HostedIsland& island);
   void exchange_with_new_owner(const IslandOfRun& place);
   void send_migrants(HostedIsland& island);
+  void publish_due_reports();
+  void publish_reports();
   bool is_elsewhere(RunId run, IslandKey island) const;
   bool is_awaited_elsewhere(const HostedIsland& island) const;
   bool is_finished(RunId run) const;
@@ -75,6 +77,8 @@ class Worker {
   std::size_t early_count_ = 0;
   UnverifiedMigrants unverified_;  ///< of runs without data, or whose sender no task has named
   IslandOwners owners_;
+  std::deque<Message> reports_;      ///< made and not yet published
+  WaitedShare::Time reports_due_{};  ///< at the latest
   std::map<RunId, Control::State> ended_;
   std::deque<RunId> ended_in_order_;  ///< the last ones are remembered
   std::uint64_t heartbeats_seen_ = 0;

@@ -1,5 +1,6 @@
 #include "recording/event_recording.hpp"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "errors/input_error.hpp"
 #include "monitor/state_json.hpp"
 #include "recording/mcap.hpp"
 
@@ -75,15 +77,48 @@ std::string EventRecording::finish() {
   return writer_.take_bytes();
 }
 
-std::vector<Event> read_recording(std::string_view bytes, const std::string& file) {
-  std::vector<Event> events;
-  int number = 0;
-  for (const McapMessage& message : read_mcap(bytes, file)) {
-    ++number;
-    if (!message.topic.starts_with("/demecal/")) continue;
-    if (auto event = read_event(message.data, file, number)) events.push_back(std::move(*event));
+namespace {
+
+/// Nothing where the message is none of demecal's. Where what named its channel is damaged, its words tell.
+std::optional<Event> event_of(const McapMessage& message, const std::string& file, int number) {
+  if (!message.topic.empty())
+    return message.topic.starts_with("/demecal/") ? read_event(message.data, file, number) : std::nullopt;
+  try {
+    return read_event(message.data, file, number);
+  } catch (const InputError&) {
+    return std::nullopt;
   }
-  return events;
+}
+
+/// `times_s` are those of all messages that were read.
+std::string loss_sentence(const McapDamage& damage, const std::vector<double>& times_s) {
+  const std::string bytes = damage.begin == damage.end
+                                ? fmt::format("it was not written to its end (byte {})", damage.begin)
+                                : fmt::format("bytes {} to {} are damaged", damage.begin, damage.end);
+  if (!damage.hits_messages) return bytes + ", in indexes or the like: all that was seen is there";
+  const double from_s = damage.messages_before == 0 ? 0.0 : times_s[damage.messages_before - 1];
+  if (damage.messages_before == times_s.size())
+    return fmt::format("{}: what was seen after {:.1f} s is missing", bytes, from_s);
+  const double to_s = times_s[damage.messages_before];
+  return fmt::format("{}: what was seen in {:.1f} s, from {:.1f} s to {:.1f} s, is missing", bytes, to_s - from_s,
+                     from_s, to_s);
+}
+
+}  // namespace
+
+RecordedEvents read_recording(std::string_view bytes, const std::string& file) {
+  const McapContents contents = read_mcap(bytes, file);
+  RecordedEvents recording;
+  std::vector<double> times_s;
+  for (const McapMessage& message : contents.messages) {
+    auto event = event_of(message, file, static_cast<int>(times_s.size() + 1));
+    times_s.push_back(event ? event->time_s : times_s.empty() ? 0.0 : times_s.back());
+    if (event) recording.events.push_back(std::move(*event));
+  }
+  for (const McapDamage& damage : contents.damage) recording.losses.push_back(loss_sentence(damage, times_s));
+  if (const std::uint64_t lost = contents.messages_lost.value_or(0); lost > 0)
+    recording.losses.push_back(fmt::format("{} of {} events are missing", lost, lost + contents.messages.size()));
+  return recording;
 }
 
 }  // namespace demecal::inline recording

@@ -35,7 +35,12 @@ class EventRecording {
   double chunk_began_s_ = 0.0;
 };
 
-/// The events of such a file. Throws InputError naming the file where it is none.
-std::vector<Event> read_recording(std::string_view bytes, const std::string& file);
+/// What is whole of such a file.
+struct RecordedEvents {
+  std::vector<Event> events;
+  std::vector<std::string> losses;  ///< for people: which bytes are damaged, and how much time is missing
+};
+/// Throws InputError naming the file where it is none, or nothing in it is whole.
+RecordedEvents read_recording(std::string_view bytes, const std::string& file);
 
 }  // namespace demecal::inline recording

@@ -1,11 +1,12 @@
 // Messages as an MCAP file (mcap.dev/spec, version 0): chunks with their indexes, statistics and checksums,
 // uncompressed. Bytes are handed out as they become due; who writes them may be stopped at any time, and loses but the
-// last chunk. And the messages of such a file, in its order.
+// last chunk. And what is whole of such a file, in its order.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,8 +73,22 @@ struct McapMessage {
 /// Whether the bytes begin as such a file does.
 bool is_mcap(std::string_view bytes);
 
-/// Of a file that was not written to its end what is whole. Throws InputError naming `file` where it is none, is
-/// compressed, or where a chunk's checksum contradicts it.
-std::vector<McapMessage> read_mcap(std::string_view bytes, const std::string& file);
+/// Bytes of a file that are not as they were written: from `begin` to before `end`; none where the file ends too early.
+struct McapDamage {
+  std::size_t begin = 0, end = 0;
+  std::size_t messages_before = 0;  ///< of those that were read, so many stand before it
+  bool hits_messages = true;        ///< or may; else indexes and the like, which nobody misses who reads from the front
+};
+
+/// What is whole of a file.
+struct McapContents {
+  std::vector<McapMessage> messages;           ///< the topic is empty where what named it is damaged
+  std::vector<McapDamage> damage;              ///< in the file's order
+  std::optional<std::uint64_t> messages_lost;  ///< where it is known how many were written
+};
+
+/// A chunk is whole where its checksum holds; behind damage the next one is looked for. Throws InputError naming `file`
+/// where it is none, is compressed, or nothing in it is whole.
+McapContents read_mcap(std::string_view bytes, const std::string& file);
 
 }  // namespace demecal::inline recording

@@ -20,7 +20,9 @@ enum class McapRecord : std::uint8_t {
   chunk,
   message_index,
   chunk_index,
+  attachment,
   statistics = 11,
+  metadata,
   summary_offset = 14,
   data_end
 };

@@ -55,7 +55,8 @@ struct InMemoryMember {
   Mailbox mailbox;
   RejectionLog rejections;
   RunOwners owners;
-  std::set<std::uint32_t> joints;
+  std::set<std::uint32_t> joints;   ///< those whose migrants it follows
+  std::set<std::uint32_t> offered;  ///< those whose migrants it may publish
 };
 
 /// A value that waits for those who come late, with its place in the order of all that was published.
@@ -93,12 +94,17 @@ class Exchange {
     });
   }
 
+  void offer(InMemoryMember* member, std::uint32_t joint) {
+    const std::lock_guard lock(mutex_);
+    member->offered.insert(joint);
+  }
+
   void publish(InMemoryMember* sender, const Message& message) {
     const std::lock_guard lock(mutex_);
     const TopicKey key = key_of(message);
     check_may_publish(sender->role, sender->name, key);
-    DEMECAL_CHECK(sender->follows(key) || key.topic != Topic::migrants,
-                  "joint=" << key.island.joint << " is not followed");
+    DEMECAL_CHECK(key.topic != Topic::migrants || sender->offered.contains(key.island.joint),
+                  "joint=" << key.island.joint << " is not offered");
     if (const RunId ended = ended_run(message)) forget(ended);
     auto& values = kept_[sender][key];
     values.push_back({++published_, message});
@@ -182,6 +188,7 @@ class InMemoryTransport final : public Transport {
   }
   void wake() override { member_.mailbox.wake(); }
   void follow_migrants(std::uint32_t joint) override { exchange_->follow(&member_, joint); }
+  void offer_migrants(std::uint32_t joint) override { exchange_->offer(&member_, joint); }
   void assert_alive() override {}
   bool flush(std::chrono::milliseconds) override { return true; }
   RunId new_run() override {

@@ -28,8 +28,10 @@ class Transport {
   virtual std::optional<Message> receive(std::chrono::milliseconds patience) = 0;
   /// Makes a receive() that waits return at once, with nothing; may be called from any thread.
   virtual void wake() = 0;
-  /// From now on migrants of this joint (counted from 0) are received, and can be published.
+  /// From now on migrants of this joint (counted from 0) are received.
   virtual void follow_migrants(std::uint32_t joint) = 0;
+  /// From now on migrants of this joint can be published. Who only publishes is not sent what others publish.
+  virtual void offer_migrants(std::uint32_t joint) = 0;
   /// A sign of life, due at least every third of kLease from each worker's own work loop. From time to time it repeats
   /// the last WorkerStatus, which others receive only if they took the worker for lost.
   virtual void assert_alive() = 0;

@@ -80,11 +80,12 @@ ExitCode replay(const std::string& path, const std::atomic<bool>& stop, const Mo
     throw InputError({path, 0}, "", fmt::format("holds no {}: only `calibrate` records it", kEventFile));
   }
   const std::string bytes = read_file(file);
-  const std::vector<Event> events = is_mcap(bytes) ? read_recording(bytes, file) : read_events(file);
+  const RecordedEvents recording = is_mcap(bytes) ? read_recording(bytes, file) : RecordedEvents{read_events(file), {}};
+  for (const std::string& loss : recording.losses) fmt::print(stderr, "{}: {}\n", file, loss);
   const MonitorClock::time_point begin = MonitorClock::now();
   MonitorOutput output(options);
   double time_s = 0.0;
-  for (const Event& event : events) {
+  for (const Event& event : recording.events) {
     time_s = std::max(time_s, event.time_s);
     while (!stop && !output.is_left() && !options.once && watched_s_since(begin) * options.speed < time_s) {
       output.show(watched_s_since(begin) * options.speed);

@@ -69,5 +69,18 @@ TEST(SpeedUp, IsAllowedByTheBusierWorkerAndByAllThatTwoCoresHaveToDo) {
   EXPECT_NEAR(speed_up({one}, {costly}).allowed, 2.0 / 1.5, 1e-12);
 }
 
+TEST(SleepingIslands, AreAsEfficientAsTheirEpochsAreShort) {
+  Sleeping run{0.5, {}};
+  run.run.wall_s = 2.4;
+  run.run.epochs = 5;
+  run.run.reached_s = {0.1, 0.9, 1.4, 1.9, 2.4};
+  EXPECT_NEAR(run.efficiency(), 0.5 / 0.6, 1e-12);
+  EXPECT_NEAR(run.settled_epoch_s(), 0.5, 1e-12);
+  Sleeping slower = run, slowest = run;
+  slower.run.wall_s = 3.0;
+  slowest.run.wall_s = 4.0;
+  EXPECT_EQ(median_of({slowest, run, slower}).run.wall_s, 3.0);
+}
+
 }  // namespace
 }  // namespace demecal::bench

@@ -32,7 +32,8 @@ TEST_P(Transports, DeliverEveryMessageEqualToAllWhoseRoleReadsIt) {
   const auto coordinator = network->join(Role::coordinator, "coordinator");
   const auto worker = network->join(Role::worker, "worker");
   const auto neighbour = network->join(Role::worker, "neighbour");
-  for (const auto& follower : {&worker, &neighbour}) (*follower)->follow_migrants(kJoint);
+  worker->offer_migrants(kJoint);
+  neighbour->follow_migrants(kJoint);
   RandomMessages random(41);
   std::vector<Message> from_coordinator, from_worker, migrants;
   for (int i = 0; i < 10; ++i) {
@@ -169,7 +170,7 @@ TEST_P(Transports, GiveLatecomersTheLastValueOfEachKey) {
 
 TEST_P(Transports, GiveLatecomersTheMigrantsOfTheLastEpochs) {
   const auto worker = network->join(Role::worker, "worker");
-  worker->follow_migrants(kJoint);
+  worker->offer_migrants(kJoint);
   constexpr std::uint32_t kBefore = 5, kLast = kBefore + kMigrantEpochs;
   for (std::uint32_t epoch = 1; epoch <= kLast; ++epoch)
     for (std::uint32_t deme = 0; deme < 3; ++deme) worker->publish(emigration(kJoint, deme, epoch));
@@ -184,7 +185,7 @@ TEST_P(Transports, GiveLatecomersTheMigrantsOfTheLastEpochs) {
 TEST_P(Transports, DeliverMigrantsOfFollowedJointsOnly) {
   const auto worker = network->join(Role::worker, "worker");
   const auto neighbour = network->join(Role::worker, "neighbour");
-  for (const std::uint32_t joint : {0u, 1u, 2u}) worker->follow_migrants(joint);
+  for (const std::uint32_t joint : {0u, 1u, 2u}) worker->offer_migrants(joint);
   neighbour->follow_migrants(0);
   neighbour->follow_migrants(2);
   neighbour->follow_migrants(2);
@@ -192,11 +193,28 @@ TEST_P(Transports, DeliverMigrantsOfFollowedJointsOnly) {
   expect_exactly(*neighbour, {emigration(0, 0, 1), emigration(2, 0, 1)});
 }
 
+TEST_P(Transports, DeliverNothingToWhoOnlyOffersMigrants) {
+  const auto worker = network->join(Role::worker, "worker");
+  const auto neighbour = network->join(Role::worker, "neighbour");
+  const auto consumer = network->join(Role::worker, "consumer");
+  worker->offer_migrants(kJoint);
+  neighbour->offer_migrants(kJoint);
+  consumer->follow_migrants(kJoint);
+  worker->publish(emigration(kJoint, 0, 1));
+  receive_up_to(*consumer, emigration(kJoint, 0, 1));
+  neighbour->follow_migrants(kJoint + 1);
+  worker->offer_migrants(kJoint + 1);
+  worker->publish(emigration(kJoint + 1, 0, 1));
+  expect_exactly(*neighbour, {emigration(kJoint + 1, 0, 1)});
+}
+
 TEST_P(Transports, NeverDeliverToTheSender) {
   const auto worker = network->join(Role::worker, "worker");
   const auto neighbour = network->join(Role::worker, "neighbour");
-  worker->follow_migrants(kJoint);
-  neighbour->follow_migrants(kJoint);
+  for (const auto& both : {&worker, &neighbour}) {
+    (*both)->follow_migrants(kJoint);
+    (*both)->offer_migrants(kJoint);
+  }
   worker->publish(emigration(kJoint, 0, 1));
   receive_up_to(*neighbour, emigration(kJoint, 0, 1));
   neighbour->publish(emigration(kJoint, 1, 1, "neighbour"));

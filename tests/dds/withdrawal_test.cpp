@@ -81,7 +81,8 @@ TEST_P(Withdrawal, GoOnWithTheNextRunWhileTheLastIsTakenBack) {
   const auto coordinator = network->join(Role::coordinator, "coordinator");
   const auto worker = network->join(Role::worker, "worker");
   const auto neighbour = network->join(Role::worker, "neighbour");
-  for (const auto& follower : {&worker, &neighbour}) (*follower)->follow_migrants(kWithdrawnJoint);
+  worker->offer_migrants(kWithdrawnJoint);
+  neighbour->follow_migrants(kWithdrawnJoint);
   worker->publish(status_of("worker"));
   receive_up_to(*coordinator, status_of("worker"));
   RandomMessages random(61);

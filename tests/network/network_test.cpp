@@ -124,8 +124,9 @@ TEST_F(Network, BrokenLinksHealAndLeaveTheSameModelByMulticast) {
 }
 
 TEST_F(Network, BrokenLinksHealAndLeaveTheSameModelByADiscoveryServer) {
-  const StartedProgram server("/usr/bin/fast-discovery-server", {"-i", "0", "-l", Hosts::address(0), "-p", "11811"},
-                              hosts_->at(0));
+  const std::string configuration = std::string(DEMECAL_SOURCE_DIR) + "/configs/dds/discovery-server.xml";
+  const StartedProgram server("/usr/bin/fast-discovery-server",
+                              {"-x", configuration, "-i", "0", "-l", Hosts::address(0), "-p", "11811"}, hosts_->at(0));
   expect_the_model_of_a_calm_run({"--discovery-server", Hosts::address(0) + ":11811"});
 }
 

@@ -105,6 +105,29 @@ TEST(Recording, OfAMonitorThatWasKilledShowsWhatItHad) {
   const Ended shown = run("demecal", {"monitor", "--replay", file, "--once"});
   EXPECT_EQ(shown.code, 0) << shown.err;
   EXPECT_THAT(shown.out, HasSubstr("evolving"));
+  EXPECT_THAT(shown.err, HasSubstr("run.mcap: "));
+  EXPECT_THAT(shown.err, HasSubstr(": what was seen after "));
+}
+
+TEST(Recording, ThatIsDamagedShowsTheRestAndSaysWhatIsMissing) {
+  const SmallJob job(20, 2);
+  const std::string file = job.path("run.mcap");
+  ASSERT_EQ(run("demecal",
+                {"calibrate", job.job(), "--out", job.path("out"), "--workers", "1", "--quiet", "--max-effects", "0"})
+                .code,
+            0);
+  ASSERT_EQ(run("demecal", {"monitor", "--replay", job.path("out"), "--speed", "0.2", "--json", "--record", file}).code,
+            0);
+  std::string bytes = job.text("run.mcap");
+  const std::size_t place = bytes.find("\"progress\"");
+  ASSERT_NE(place, std::string::npos);
+  bytes[place + 1] ^= 1;
+  std::ofstream(file, std::ios::binary | std::ios::trunc) << bytes;
+  const Ended shown = run("demecal", {"monitor", "--replay", file, "--once"});
+  EXPECT_EQ(shown.code, 0) << shown.err;
+  EXPECT_THAT(shown.out, HasSubstr("finished"));
+  EXPECT_THAT(shown.err, testing::ContainsRegex("run.mcap: bytes [0-9]+ to [0-9]+ are damaged: what was seen"));
+  EXPECT_THAT(shown.err, testing::ContainsRegex("run.mcap: [0-9]+ of [0-9]+ events are missing"));
 }
 
 TEST(Recording, ReplacesNothingElse) {

@@ -183,7 +183,7 @@ RunResult disturbed_by(const CalibrationData& data, const std::string& name,
   const auto exchange = make_exchange();
   WorkerThread worker(exchange, "worker");
   const auto stranger = join(exchange, Role::worker, name);
-  for (const std::uint32_t joint : data.archipelago.joints) stranger->follow_migrants(joint);
+  for (const std::uint32_t joint : data.archipelago.joints) stranger->offer_migrants(joint);
   const auto transport = join(exchange, Role::coordinator, "coordinator");
   AfterSomeEpochs watch(2, [&] { disturb(*stranger); });
   const std::atomic<bool> interrupt{false};

@@ -17,6 +17,7 @@ class ForwardingTransport : public Transport {
   std::optional<Message> receive(std::chrono::milliseconds patience) override { return sound_->receive(patience); }
   void wake() override { sound_->wake(); }
   void follow_migrants(std::uint32_t joint) override { sound_->follow_migrants(joint); }
+  void offer_migrants(std::uint32_t joint) override { sound_->offer_migrants(joint); }
   void assert_alive() override { sound_->assert_alive(); }
   bool flush(std::chrono::milliseconds patience) override { return sound_->flush(patience); }
   RunId new_run() override { return sound_->new_run(); }

@@ -64,6 +64,18 @@ double Sleeping::coordinator_s_per_checkpoint() const {
   return run.coordinator_s / static_cast<double>(run.islands * run.epochs);
 }
 
+double Sleeping::settled_epoch_s() const {
+  std::vector<double> epochs;
+  for (std::size_t i = 2; i < run.reached_s.size(); ++i) epochs.push_back(run.reached_s[i] - run.reached_s[i - 1]);
+  if (epochs.empty()) return epoch_s();
+  std::ranges::sort(epochs);
+  return epochs[epochs.size() / 2];
+}
+
+double Sleeping::worker_s_per_checkpoint() const {
+  return run.worker_s / static_cast<double>(run.islands * run.epochs);
+}
+
 CostModel Distribution::model() const {
   std::vector<EpochTime> times;
   for (const Sleeping& one : sleeping) {
@@ -98,6 +110,38 @@ void write_table(std::ostream& out, const Distribution& all) {
   const CostModel model = all.model();
   fmt::print(out, "an epoch takes {:.1f} ms + {:.3f} ms per island beyond its work; {:.0f} islands: {:.0f} ms\n",
              1e3 * model.fixed_s, 1e3 * model.per_island_s, kMany, 1e3 * model.at(kMany));
+}
+
+Sleeping median_of(std::vector<Sleeping> runs) {
+  std::ranges::sort(runs, {}, &Sleeping::epoch_s);
+  return runs[runs.size() / 2];
+}
+
+void write_hosts_table(std::ostream& out, int hosts, const std::vector<Sleeping>& runs) {
+  fmt::print(out, "{} worker processes, each in a network namespace of its own; islands sleep for {:.2f} s an epoch\n",
+             hosts, runs.at(0).work_s);
+  fmt::print(out, "{:>8}{:>14}{:>12}{:>12}{:>16}{:>34}\n", "islands", "s per epoch", "efficiency", ">= 0.9",
+             "s once settled", "ms/island/epoch workers, coord.");
+  for (const Sleeping& one : runs) {
+    fmt::print(out, "{:>8}{:>14.3f}{:>12.3f}{:>12}{:>16.3f}{:>22.2f}{:>12.2f}\n", one.run.islands, one.epoch_s(),
+               one.efficiency(), one.efficiency() >= 0.9 ? "kept" : "MISSED", one.settled_epoch_s(),
+               1e3 * one.worker_s_per_checkpoint(), 1e3 * one.coordinator_s_per_checkpoint());
+  }
+}
+
+void write_hosts_json(std::ostream& out, int hosts, const std::vector<Sleeping>& runs) {
+  for (const Sleeping& one : runs) {
+    out << nlohmann::ordered_json{{"hosts", hosts},
+                                  {"islands", one.run.islands},
+                                  {"epoch_s", one.epoch_s()},
+                                  {"ideal_epoch_s", one.work_s},
+                                  {"efficiency", one.efficiency()},
+                                  {"settled_epoch_s", one.settled_epoch_s()},
+                                  {"worker_ms_per_checkpoint", 1e3 * one.worker_s_per_checkpoint()},
+                                  {"coordinator_ms_per_checkpoint", 1e3 * one.coordinator_s_per_checkpoint()}}
+               .dump()
+        << '\n';
+  }
 }
 
 void write_json(std::ostream& out, const Distribution& all) {

@@ -27,8 +27,12 @@ struct Sleeping {
   DistributionFigures run;
 
   double epoch_s() const { return run.wall_s / static_cast<double>(run.epochs - 1); }  ///< the first breeds nothing
+  double efficiency() const { return work_s / epoch_s(); }
+  /// Of the epochs from the third on, before which everybody has met everybody: the median.
+  double settled_epoch_s() const;
   /// Of the coordinator's processor time, for what one island says in one epoch, s.
   double coordinator_s_per_checkpoint() const;
+  double worker_s_per_checkpoint() const;  ///< of the workers' that breed what they sleep for besides
 };
 
 struct Distribution {
@@ -38,6 +42,12 @@ struct Distribution {
 };
 
 void write_table(std::ostream& out, const Distribution& all);
+
+/// Of the same number of islands, in the order of their times, the run in the middle.
+Sleeping median_of(std::vector<Sleeping> runs);
+/// Of worker processes on hosts of their own.
+void write_hosts_table(std::ostream& out, int hosts, const std::vector<Sleeping>& runs);
+void write_hosts_json(std::ostream& out, int hosts, const std::vector<Sleeping>& runs);
 void write_json(std::ostream& out, const Distribution& all);
 
 }  // namespace demecal::bench

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <thread>
 
 #include "coordinator/workers.hpp"
+#include "hosts_of_workers.hpp"
 #include "processor_time.hpp"
 #include "scheduling/evolution_run.hpp"
 
@@ -36,12 +38,17 @@ double total_s(const std::vector<Split>& workers) {
   return total_s;
 }
 
-LocalWorkers started(const DdsOptions& dds, const WorkerProcesses& workers) {
+using StartedWorkers = std::vector<std::unique_ptr<LocalWorkers>>;
+
+StartedWorkers started(const DdsOptions& dds, const WorkerProcesses& workers) {
   std::vector<std::string> arguments = workers.arguments;
-  for (const std::string& word :
-       {std::string("--domain"), std::to_string(dds.domain), std::string("--slots"), std::to_string(workers.slots)})
-    arguments.push_back(word);
-  return {workers.program, arguments, workers.processes};
+  for (const std::string& word : dds_arguments(dds)) arguments.push_back(word);
+  arguments.insert(arguments.end(), {"--slots", std::to_string(workers.slots)});
+  StartedWorkers all;
+  for (const pid_t network : workers.networks) all.push_back(started_in_network(network, workers.program, arguments));
+  if (workers.networks.empty())
+    all.push_back(std::make_unique<LocalWorkers>(workers.program, arguments, workers.processes));
+  return all;
 }
 
 double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chrono::seconds idle) {
@@ -52,20 +59,37 @@ double idle_share(const std::map<std::string, WorkerStatus>& workers, std::chron
   return seconds / static_cast<double>(idle.count()) / static_cast<double>(workers.size());
 }
 
+/// Notes when all islands have bred so many epochs.
+class EpochClock final : public RunObserver {
+ public:
+  void on_progress(const Progress& progress) override {
+    reached_s_[progress.epoch] = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  std::vector<double> reached_s() const {
+    std::vector<double> all;
+    for (const auto& [epoch, time_s] : reached_s_) all.push_back(time_s);
+    return all;
+  }
+
+ private:
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::map<std::uint32_t, double> reached_s_;
+};
+
 }  // namespace
 
 DistributionFigures measure(const DdsOptions& dds, const WorkerProcesses& processes, const CalibrationData& data,
                             std::chrono::seconds idle) {
   CountedTransport transport(join_dds(dds, Role::coordinator, ""));
-  const LocalWorkers workers = started(dds, processes);
+  const StartedWorkers workers = started(dds, processes);
   if (!transport.await_workers(static_cast<std::size_t>(processes.processes), kPatience))
     throw std::runtime_error("not all workers came within a minute");
   DistributionFigures figures;
   figures.idle_worker_share = idle_share(transport.workers(), idle);
   figures.islands = islands(data.archipelago).size();
   figures.epochs = epochs_of(data);
-  RunObserver nobody;
-  EvolutionRun run(transport, data, nobody);
+  EpochClock clock;
+  EvolutionRun run(transport, data, clock);
   const std::atomic<bool> interrupt{false};
   const Reading before = read(transport.workers());
   const double own_before = own_seconds();
@@ -80,6 +104,7 @@ DistributionFigures measure(const DdsOptions& dds, const WorkerProcesses& proces
     figures.busiest_worker_s = std::max(figures.busiest_worker_s, worker.total_s);
     figures.breeding_s += worker.busiest_thread_s;
   }
+  figures.reached_s = clock.reached_s();
   figures.traffic = transport.traffic(data);
   return figures;
 }

@@ -1,6 +1,8 @@
 // One distributed run, measured: worker processes over DDS on this machine, the coordinator in this process.
 #pragma once
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <string>
 #include <vector>
@@ -12,9 +14,10 @@ namespace demecal::bench {
 
 struct WorkerProcesses {
   std::string program;                 ///< of the workers
-  std::vector<std::string> arguments;  ///< beside domain and slots
+  std::vector<std::string> arguments;  ///< beside those of DDS and slots
   int processes = 1;
-  int slots = 1;  ///< of each process
+  int slots = 1;                  ///< of each process
+  std::vector<pid_t> networks{};  ///< for each process one that sees the network that it is to see; empty: this one's
 };
 
 struct DistributionFigures {
@@ -25,6 +28,8 @@ struct DistributionFigures {
   double coordinator_s = 0.0;      ///< processor time
   double idle_worker_share = 0.0;  ///< of one core, that a worker without work takes; NaN where not asked for
   std::size_t islands = 0, epochs = 0;
+  std::vector<double> reached_s;  ///< since the run's beginning: when the last island reported that it had bred this
+                                  ///< many epochs, from 1 on; where reports leave epochs out, fewer
   Traffic traffic;
 };
 
