@@ -17,8 +17,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kHeartbeat = kLease / 5, kLeastHeartbeat = kLease / 10;
 constexpr std::chrono::milliseconds kShutdownTimeout{1000}, kBatchTimeout{200}, kIdleWait{10};
-/// How long reports wait at most while islands wait for migrants.
-constexpr std::chrono::milliseconds kReportDelay{100};
+constexpr std::chrono::milliseconds kReportDelay{100};  // while islands wait for migrants
 constexpr std::chrono::milliseconds kAnnouncement{1000}, kIdleAfterRuns{1000};
 constexpr std::size_t kMostEarlyTasks = 65536, kMostEnded = 4096;
 
@@ -234,8 +233,7 @@ void Worker::report(const EpochBatch::Member& member) {
 
 /// Migrants come first: while islands wait for some, here or with others on the same processors, reports wait, too.
 void Worker::publish_due_reports() {
-  if (reports_.empty()) return;
-  if (!host_.waits_for_migrants() || std::chrono::steady_clock::now() >= reports_due_) publish_reports();
+  if (std::chrono::steady_clock::now() >= reports_due_ || !host_.waits_for_migrants()) publish_reports();
 }
 
 void Worker::publish_reports() {
@@ -243,8 +241,7 @@ void Worker::publish_reports() {
 }
 
 bool Worker::is_finished(RunId run) const {
-  const auto end = ended_.find(run);
-  return end != ended_.end() && end->second == Control::State::finished;
+  return ended_.contains(run) && ended_.at(run) == Control::State::finished;
 }
 
 /// Longer where a slot has many islands, which share what checkpoints may cost.

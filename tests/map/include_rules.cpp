@@ -50,7 +50,7 @@ std::string wrong_room(const std::string& home, const std::string& target, const
 /// The one room that may include the header; empty where it is free.
 std::string owner_of(const std::string& header) {
   static const std::map<std::string, std::string> of_libraries = {
-      {"yaml-cpp", "yaml"},     {"LibXml2::LibXml2", "certificate"}, {"fastrtps", "dds"}, {"fastcdr", "tests"},
+      {"yaml-cpp", "yaml"},     {"LibXml2::LibXml2", "certificate"}, {"fastrtps", "dds"}, {"fastcdr", "dds"},
       {"demecal_idl", "tests"}, {"PkgConfig::HTTPLIB", "http"}};
   static const std::set<std::string> slow_to_compile = {"Eigen/Cholesky",    "Eigen/Dense", "Eigen/Eigen",
                                                         "Eigen/Eigenvalues", "Eigen/QR",    "Eigen/SVD"};

@@ -116,8 +116,8 @@ TEST(Recording, ThatIsDamagedShowsTheRestAndSaysWhatIsMissing) {
                 {"calibrate", job.job(), "--out", job.path("out"), "--workers", "1", "--quiet", "--max-effects", "0"})
                 .code,
             0);
-  ASSERT_EQ(run("demecal", {"monitor", "--replay", job.path("out"), "--speed", "0.2", "--json", "--record", file}).code,
-            0);
+  ASSERT_EQ(
+      run("demecal", {"monitor", "--replay", job.path("out"), "--speed", "0.05", "--json", "--record", file}).code, 0);
   std::string bytes = job.text("run.mcap");
   const std::size_t place = bytes.find("\"progress\"");
   ASSERT_NE(place, std::string::npos);
