@@ -4,6 +4,9 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
+#include <vector>
 
 #include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
@@ -68,21 +71,48 @@ ExpectedNoise noise_about_fit(const CorrectedRobot& robot, const DistinctPoses& 
            "small changes may be missed."}};
 }
 
+/// Noise of the model's station that the data set is named after; of its stations together where there is none.
+struct StatedNoise {
+  double noise_m = 0.0;
+  std::vector<std::string> sentences{};
+};
+
+StatedNoise stated_noise(const CalibratedModel& model, const PredictionInterval& interval, const DataSet& data) {
+  constexpr double kApart = 2.0;  // times: from there on it matters which station measured
+  const std::map<std::string, double>& by_station = interval.station_noise_m;
+  if (by_station.empty()) return {interval.noise_m};
+  const bool first = !model.stations.empty() && model.stations.front().name == data.name;
+  if (const auto own = by_station.find(first ? std::string() : data.name); own != by_station.end())
+    return {own->second};
+  const auto less = [](const auto& one, const auto& other) { return one.second < other.second; };
+  const double finest_m = std::ranges::min_element(by_station, less)->second;
+  const double coarsest_m = std::ranges::max_element(by_station, less)->second;
+  if (coarsest_m < kApart * finest_m) return {interval.noise_m};
+  return {
+      interval.noise_m,
+      {fmt::format("The model's stations measured with {:.2g} to {:.2g} mm of noise per axis, and this data set has "
+                   "the name of none: it is taken to have {:.2g} mm, so that smaller changes may be missed, or a "
+                   "coarser instrument's noise be taken for a change. Name it as the station whose instrument "
+                   "measured it.",
+                   millimetres(finest_m), millimetres(coarsest_m), millimetres(interval.noise_m))}};
+}
+
 }  // namespace
 
 ExpectedNoise expected_noise(const CalibratedModel& model, const CorrectedRobot& robot, const DataSet& data,
                              const DistinctPoses& distinct, std::span<const std::size_t> poses) {
   constexpr double kByChance = 0.05, kFewestOfRepeats = 3.0;
   const PredictionInterval stated = model.interval.value_or(PredictionInterval{});
-  const double by_model_m = std::hypot(stated.noise_m, stated.model_error_m);
+  const StatedNoise of_station = stated_noise(model, stated, data);
+  const double by_model_m = std::hypot(of_station.noise_m, stated.model_error_m);
   if (by_model_m <= 0.0) {
     ExpectedNoise noise = noise_about_fit(robot, distinct, poses);
     if (model.interval)
       noise.known_rows = std::clamp(3.0 * static_cast<double>(stated.poses), kFewestKnownRows, kMostKnownRows);
     return noise;
   }
-  ExpectedNoise noise{by_model_m,
-                      std::clamp(3.0 * static_cast<double>(stated.poses), kFewestKnownRows, kMostKnownRows)};
+  ExpectedNoise noise{by_model_m, std::clamp(3.0 * static_cast<double>(stated.poses), kFewestKnownRows, kMostKnownRows),
+                      of_station.sentences};
   const ScatterOfRepeats scatter = scatter_of_repeats(scatter_by_pose(robot, data, distinct, poses));
   if (scatter.freedom == 0.0) return noise;
   const double variance_m2 = scatter.squares_m2 / scatter.freedom;

@@ -72,6 +72,33 @@ TEST(Change, OfTheBaseAloneIsToldFromOneOfTheRobot) {
   EXPECT_EQ(anew.verdict, ChangeVerdict::registration);
 }
 
+TEST(Change, IsJudgedByTheNoiseOfTheStationThatMeasured) {
+  CalibratedModel model = model_of_seed(6);
+  const double fine_m = model.interval->noise_m;
+  ASSERT_GT(fine_m, 0.0);
+  model.stations = {{"hall", "", Eigen::Isometry3d::Identity()}, {"door", "", Eigen::Isometry3d::Identity()}};
+  model.interval->station_noise_m = {{"", fine_m}, {"door", 12.0 * fine_m}};
+  model.interval->noise_m = 8.0 * fine_m;
+  CorrectedRobot now = true_wrist(6);
+  now.chain.joints[2].theta_rad += 4e-4;
+  DataSet data = measured_wrist(now, 14, 0, 611);
+  const auto report_of = [&](const std::string& name) {
+    data.name = name;
+    return find_change(model, data);
+  };
+  const auto says_so = [](const ChangeReport& report) {
+    return std::ranges::any_of(report.not_testable, [](const std::string& sentence) {
+      return sentence.find("has the name of none") != std::string::npos;
+    });
+  };
+  const ChangeReport of_hall = report_of("hall"), of_door = report_of("door"), of_another = report_of("yard");
+  EXPECT_EQ(of_hall.verdict, ChangeVerdict::changed);
+  EXPECT_LT(of_hall.noise_m, of_another.noise_m);
+  EXPECT_LT(of_another.noise_m, of_door.noise_m);
+  EXPECT_FALSE(says_so(of_hall) || says_so(of_door));
+  EXPECT_TRUE(says_so(of_another));
+}
+
 /// A bent link is nothing that few poses can name; what is like it must not be all that is said.
 TEST(Change, OfALinkIsNoMoveOfTheBaseAndNotAllExplained) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
