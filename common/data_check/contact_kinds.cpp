@@ -30,7 +30,7 @@ constexpr double kFitsMost_m = 5e-3;        ///< and at most
 constexpr std::size_t kFewestTouches = 8;   ///< that tell a kind
 constexpr std::size_t kFewestPlaces = 6;    ///< of them
 constexpr double kApart = 8.0;              ///< times what touches leave a contact by: from there on places differ
-constexpr std::size_t kFewestAgreeing = 6;  ///< touches of points: level planes agree whatever joint 1 does
+constexpr std::size_t kFewestAgreeing = 6;  ///< touches of points, or as many numbers of other contacts
 
 using ContactNames = std::set<std::string>;
 
@@ -135,18 +135,21 @@ OtherKind found_as(const DataSet& data, const ContactNames& agreeing, const std:
   return {kind, left_m, places.size()};
 }
 
-/// The simplest kind that fits hardly worse than the best: a line is on a plane, and a plane nearly on a large sphere.
+/// The simplest kind that fits hardly worse than the best: a plane is nearly on a large sphere. A line is on planes
+/// that lean to an arm's errors: it has to fit, however much nearer one of these comes.
 std::optional<OtherKind> other_kind(const DataSet& data, const ContactNames& agreeing, const std::string& contact,
                                     double scatter_m) {
   constexpr double kHardlyWorse = 2.0;
   const ContactKind stated = data.contacts.form_of(contact).kind;
+  const double most_m = std::min(kFits * scatter_m, kFitsMost_m);
   std::optional<OtherKind> best;
   for (const ContactKind kind : {ContactKind::sphere, ContactKind::plane, ContactKind::line}) {
     if (kind == stated) continue;
     const OtherKind one = found_as(data, agreeing, contact, kind);
-    if (!best || one.left_m < kHardlyWorse * best->left_m) best = one;
+    const bool is_line = kind == ContactKind::line && one.left_m < most_m;
+    if (!best || is_line || one.left_m < kHardlyWorse * best->left_m) best = one;
   }
-  if (!best || best->left_m > std::min(kFits * scatter_m, kFitsMost_m)) return std::nullopt;
+  if (!best || best->left_m > most_m) return std::nullopt;
   return best->places < kFewestPlaces ? std::nullopt : best;
 }
 
@@ -164,16 +167,37 @@ Finding of_kind(const DataSet& data, const std::string& contact, double scatter_
   return finding;
 }
 
+/// Whether a wrong arm could not have these contacts agree: points, spheres by what their touches tell beyond place and
+/// radius, and planes of three directions alike; level planes agree whatever joint 1 does.
+bool are_telling(const DataSet& data, const ContactNames& agreeing) {
+  constexpr double kThreeDirections = 0.1;  ///< volume that three normals span
+  const DataSet own = at_contacts(data, agreeing);
+  const std::optional<CorrectedRobot> robot = stiff_arm(own);
+  if (!robot) return false;
+  const TouchedContacts touched(own, *robot, {});
+  std::size_t points = 0, of_spheres = 0, of_planes = 0;
+  Eigen::Matrix3d normals = Eigen::Matrix3d::Zero();
+  for (const auto& [group, poses] : touched.groups()) {
+    const ContactPlace place = touched.place(group);
+    const std::size_t taken = motions_of(place).size();
+    const std::size_t beyond = poses.size() > taken ? poses.size() - taken : 0;
+    if (place.kind == ContactKind::point) points += poses.size();
+    if (place.kind == ContactKind::sphere) of_spheres += beyond;
+    if (place.kind != ContactKind::plane) continue;
+    of_planes += beyond;
+    const Eigen::Vector3d normal = place.frame.linear().col(2);
+    normals += normal * normal.transpose();
+  }
+  if (normals.determinant() < kThreeDirections * kThreeDirections) of_planes = 0;
+  constexpr std::size_t kNumbersOfPoint = 3;
+  return points >= kFewestAgreeing || of_spheres + of_planes >= kNumbersOfPoint * kFewestAgreeing;
+}
+
 }  // namespace
 
 std::vector<Finding> find_wrong_kinds(const DataSet& data) {
   const ContactNames agreeing = agreeing_contacts(data);
-  std::size_t touches = 0;
-  for (const auto& [group, poses] : contact_groups(data))
-    if (group.set == PoseSet::calibration && agreeing.contains(group.contact) &&
-        data.contacts.form_of(group.contact).kind == ContactKind::point)
-      touches += poses.size();
-  if (touches < kFewestAgreeing) return {};
+  if (agreeing.empty() || !are_telling(data, agreeing)) return {};
   std::vector<Finding> found;
   for (const auto& [group, poses] : contact_groups(data)) {
     if (group.set != PoseSet::calibration || agreeing.contains(group.contact) || poses.size() < kFewestTouches)

@@ -2,6 +2,7 @@
 #include "data/data_set.hpp"
 #include "data/stated_radius.hpp"
 #include "data_check/searches.hpp"
+#include "data_check/touched_contacts.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "prediction/corrected_robot.hpp"
@@ -22,6 +23,7 @@
 #include "effects/arm_state.hpp"
 #include "fitting/fit.hpp"
 #include "kinematics/units.hpp"
+#include "prediction/contact_place.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 #include "trials/explanations.hpp"
@@ -31,7 +33,8 @@ namespace demecal::inline data_check {
 namespace {
 
 constexpr double kImplausible_m = 5e-3;  ///< of the median pose: no arm leaves so much once its links are fitted
-constexpr double kApart_m = 2e-2;        ///< the same with links as described
+constexpr double kNoContact_m = 1e-2;    ///< the same of the poses of one contact
+constexpr double kApart_m = 2e-2;        ///< of the median pose with links as described
 
 DeclaredModel declared_for(const DataSet& data, std::size_t poses) {
   const DeclaredModel all{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
@@ -114,6 +117,31 @@ Finding of_other_robot(double as_given_m) {
               distance_text(as_given_m))};
 }
 
+/// A contact that its touches are nowhere near, those that `found` names left out, whatever else agrees by `robot`.
+std::optional<Finding> scattered_contact(const DataSet& data, const CorrectedRobot& robot,
+                                         const std::vector<Finding>& found) {
+  TouchedContacts touched(data, robot, {});
+  for (std::size_t pose = 0; pose < data.poses.size(); ++pose)
+    for (const Finding& one : found)
+      if (std::ranges::count(one.poses, data.poses[pose].pose_id) > 0) touched.leave_out(pose);
+  for (const auto& [group, poses] : touched.groups()) {
+    if (group.set != PoseSet::calibration || touched.kept(group).size() < 2) continue;
+    std::vector<double> distances_m;
+    const ContactPlace place = touched.place(group);
+    for (const std::size_t pose : touched.kept(group)) distances_m.push_back(touched.distance_m(place, pose));
+    const double left_m = median(std::move(distances_m));
+    if (left_m <= kNoContact_m) continue;
+    return Finding{.kind = FindingKind::wrong_kind,
+                   .as_given_mm = millimetres(left_m),
+                   .sentence = fmt::format(
+                       "Calibration poses that touch '{0}' lie {1} from one {2} (median) even with all links fitted, "
+                       "which no arm does whose other contacts agree: '{0}' is of another kind, or rows name the wrong "
+                       "contacts. State it under contacts.kinds, or correct the names.",
+                       group.contact, distance_text(left_m), to_string(touched.kind_of(group)))};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<CorrectedRobot> stiff_arm(const DataSet& data) {
@@ -131,9 +159,11 @@ std::vector<Finding> check_contacts(const DataSet& data) {
   if (const std::optional<CorrectedRobot> stiff = stiff_arm(data)) {
     if (auto computed = find_computed_contacts(data, *stiff)) return {std::move(*computed)};
     const double apart_m = median_tool_error_m(data, *stiff);
+    std::vector<Finding> kinds = find_wrong_kinds(data);
+    if (apart_m < kApart_m && !kinds.empty()) return kinds;  // where most agree joints are read as they are meant
     if (most_apart_m(data, *stiff) > kApart_m)
       if (auto reading = other_reading(data, *stiff, apart_m)) return {std::move(*reading)};
-    if (auto kinds = find_wrong_kinds(data); !kinds.empty()) return kinds;
+    if (!kinds.empty()) return kinds;
     if (auto angles = find_wrong_angles(data, *stiff); !angles.empty()) return angles;
     if (apart_m < kApart_m)
       if (auto wrong = find_wrong_lengths(data, *stiff, apart_m); !wrong.empty()) return wrong;
@@ -148,6 +178,7 @@ std::vector<Finding> check_contacts(const DataSet& data) {
   const double left_m = median_tool_error_m(data, fit->robot);
   if (left_m > kImplausible_m) return {of_other_robot(left_m)};
   std::vector<Finding> found = find_wrong_contacts(data, fit->robot);
+  if (auto scattered = scattered_contact(data, fit->robot, found)) return {std::move(*scattered)};
   std::ranges::move(radii, std::back_inserter(found));
   return found;
 }

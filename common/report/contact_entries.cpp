@@ -40,19 +40,25 @@ std::size_t fitted_lengths(const DataSet& data) {
   }));
 }
 
-/// Where calibration poses touch something, by the model.
+/// Where calibration poses touch something, by the model: planes and lines wherever they are touched.
 std::vector<Eigen::Vector3d> touched_places_m(const DataSet& data, const CorrectedRobot& robot) {
+  const CorrectedRobot placed = with_own_contacts(robot, data);
   std::vector<Eigen::Vector3d> places_m;
-  for (const auto& [group, place] : with_own_contacts(robot, data).contacts)
-    if (group.set == PoseSet::calibration) places_m.push_back(place.frame.translation());
+  for (const auto& [group, poses] : contact_groups(data, poses_of(data, PoseSet::calibration))) {
+    const ContactPlace& place = placed.contacts.at(group);
+    if (place.kind != ContactKind::plane && place.kind != ContactKind::line)
+      places_m.push_back(place.frame.translation());
+    else
+      for (const std::size_t pose : poses) places_m.push_back(touch_of(robot, data.poses[pose]).point_m);
+  }
   return places_m;
 }
 
 /// What calibration at one place cannot see; empty where there are several.
 std::string one_place_sentence(const DataSet& data, const CorrectedRobot& robot) {
   constexpr double kOnePlace_m = 0.2;
+  if (contact_groups(data, poses_of(data, PoseSet::calibration)).size() == 1) return one_contact_sentence();
   const std::vector<Eigen::Vector3d> places_m = touched_places_m(data, robot);
-  if (places_m.size() == 1) return one_contact_sentence();
   double apart_m = 0.0;
   for (const Eigen::Vector3d& one_m : places_m)
     for (const Eigen::Vector3d& other_m : places_m) apart_m = std::max(apart_m, (one_m - other_m).norm());

@@ -61,6 +61,46 @@ TEST(ContactKinds, AreNamedWhereTheyWereForgotten) {
   }
 }
 
+/// Two balls and an edge, by no socket.
+KnownArm arm_at_balls_and_edge(std::uint64_t seed) {
+  RandomStream stream{seed};
+  KnownArm arm = perfect_arm(seed % 2 == 0 ? seven_joint_arm() : modified_arm(), Frame::base);
+  misbuild(arm, stream, {.joint_offset = true, .geometry = true});
+  touch_ball(arm, stream, "left", {0.45, 0.25, 0.1}, 0.025, 24, kTouchPlay_m);
+  touch_ball(arm, stream, "right", {0.35, -0.35, 0.35}, 0.025, 24, kTouchPlay_m);
+  for (int i = 0; i < 20; ++i) {
+    const double along_m = stream.real(-0.15, 0.15);
+    touch(arm, stream, "edge", Eigen::Vector3d(0.4, 0.05, 0.2) + along_m * Eigen::Vector3d(0.2, 0.97, 0.1), 1,
+          kTouchPlay_m);
+    arm.data.poses.back().contact_kind = ContactKind::line;
+  }
+  arm.data.contacts.forms["edge"].kind = ContactKind::line;
+  return arm;
+}
+
+TEST(ContactKinds, AreNamedWhereNoSocketIsTouched) {
+  for (const std::uint64_t seed : {10021u, 10022u, 10023u, 10024u}) {
+    const DataSet data = arm_at_balls_and_edge(seed).data;
+    EXPECT_THAT(check_data(data).findings, IsEmpty()) << seed;
+    const std::vector<Finding> found = check_data(forgotten(data, {"edge"})).findings;
+    ASSERT_EQ(found.size(), 1u) << seed;
+    EXPECT_EQ(found[0].kind, FindingKind::wrong_kind);
+    EXPECT_THAT(found[0].sentence, HasSubstr("{edge: line}"));
+  }
+}
+
+/// Rows of two edges that share a name are of no kind of contact: nobody may take their model for a sound one.
+TEST(ContactKinds, ThatNoneFitsAreContradictions) {
+  for (const std::uint64_t seed : {10031u, 10032u}) {
+    KnownArm arm = arm_at_balls_and_edge(seed);
+    RandomStream stream{seed + 10};
+    for (int i = 0; i < 12; ++i)
+      touch(arm, stream, "edge", {0.3, stream.real(-0.2, 0.2), stream.real(0.3, 0.4)}, 1, kTouchPlay_m);
+    const DataCheck check = check_data(forgotten(arm.data, {"edge"}));
+    EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << seed;
+  }
+}
+
 /// A socket seems to lie on a circle where the first joint is read the other way, which is no kind of contact.
 TEST(ContactKinds, AreNotBlamedForJointsReadOtherwise) {
   DataSet data = arm_at_surfaces(10008).data;

@@ -186,6 +186,11 @@ TEST(ContactNotes, SayWhereEverythingWasTouchedAtOnePlace) {
           .norm(),
       0.2);
   EXPECT_THAT(notes(apart), AllOf(Not(HasSubstr("touch one contact")), Not(HasSubstr("judged at one place"))));
+  const JointVector between = JointVector::Constant(6, -0.3);
+  DataSet wide = touching({{"a", here}, {"a", there}, {"a", between}, {"b", near}, {"b", there}, {"b", between}});
+  for (MeasuredPose& pose : wide.poses) pose.contact_kind = ContactKind::plane;
+  for (const char* plane : {"a", "b"}) wide.contacts.forms[plane].kind = ContactKind::plane;
+  EXPECT_THAT(notes(wide), Not(HasSubstr("judged at one place")));
 }
 
 TEST(ContactNotes, CallNoLengthUnfittedThatOtherPosesTouchAgain) {
