@@ -41,6 +41,13 @@ void require_fit(const Fit& fit, const DataSet& data) {
     throw InputError({data.file, 0}, "", "no model fits these poses: " + fit.sentence);
 }
 
+/// Where links are fitted beside base and tool, those alone are a start, which need not have come to rest: precise
+/// lengths between contacts can contradict the described links.
+void require_start(const Fit& fit, const DataSet& data, const DeclaredModel& declared) {
+  const bool only_start = declared.geometry || declared.joint_offset;
+  if (!only_start || fit.status != FitStatus::not_converged) require_fit(fit, data);
+}
+
 /// Poses in the base's frame need no base, whatever the frame the model was found in.
 CorrectedRobot placed_in_frame(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& model) {
   CorrectedRobot in_base = model;
@@ -144,7 +151,7 @@ Preparation prepare(const DataSet& data, const Job& job, const FitOptions& optio
   const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
   require_poses(poses.size(), data, job);
   preparation.registered = fit_registration(data, poses, job.declared, preparation.nominal, options);
-  require_fit(preparation.registered, data);
+  require_start(preparation.registered, data, job.declared);
   preparation.declared = fit_declared(data, poses, job.declared, preparation.registered.robot, options);
   require_fit(preparation.declared, data);
   if (job.declared.joint_corrections) {
