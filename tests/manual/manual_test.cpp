@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <cstdio>
@@ -41,7 +42,7 @@ struct MadeUpProgram {
 };
 
 std::string output_of(const std::string& command, const std::string& input) {
-  const std::string file = ::testing::TempDir() + "manual_test_input";
+  const std::string file = ::testing::TempDir() + "manual_test_input-" + std::to_string(::getpid());
   std::FILE* const written = std::fopen(file.c_str(), "w");
   std::fputs(input.c_str(), written);
   std::fclose(written);
