@@ -136,29 +136,29 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/8/data";
+      return "demecal/9/data";
     case Topic::task:
-      return "demecal/8/task";
+      return "demecal/9/task";
     case Topic::control:
-      return "demecal/8/control";
+      return "demecal/9/control";
     case Topic::migrants:
-      return "demecal/8/migrants/" + std::to_string(joint + 1);
+      return "demecal/9/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/8/progress";
+      return "demecal/9/progress";
     case Topic::checkpoint:
-      return "demecal/8/checkpoint";
+      return "demecal/9/checkpoint";
     case Topic::outcome:
-      return "demecal/8/outcome";
+      return "demecal/9/outcome";
     case Topic::loop:
-      return "demecal/8/loop";
+      return "demecal/9/loop";
     case Topic::cause:
-      return "demecal/8/cause";
+      return "demecal/9/cause";
     case Topic::final_figures:
-      return "demecal/8/final_figures";
+      return "demecal/9/final_figures";
     case Topic::worker:
       break;
   }
-  return "demecal/8/worker";
+  return "demecal/9/worker";
 }
 
 fastdds::DataWriterQos writer_qos(Topic topic) {

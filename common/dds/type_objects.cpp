@@ -49,11 +49,21 @@ class MemberList {
   template <FieldKind kind, class Field>
   void describe(types::CompleteStructMember& member, const SpecialField<kind, Field>& field) {
     if constexpr (kind == FieldKind::key) set_key(member);
-    describe(member, field.field);
+    if constexpr (kind == FieldKind::word) {
+      member.common().member_type_id(*factory().get_string_identifier(kMostWord, false));
+    } else {
+      describe(member, field.field);
+    }
   }
   template <std::size_t most, class Field>
   void describe(types::CompleteStructMember& member, const BoundedField<most, Field>&) {
     member.common().member_type_id(*factory().get_string_identifier(most, false));
+  }
+
+  template <std::size_t most, class Rows, class NumberOf>
+  void describe(types::CompleteStructMember& member, const ColumnField<most, Rows, NumberOf>& column) {
+    using Value = std::remove_cvref_t<decltype(column.number(*column.rows.begin()))>;
+    member.common().member_type_id(*factory().get_sequence_identifier(number_name<Value>(), most, false));
   }
 
   /// By the flag and by the annotation: Fast DDS makes dynamic types of the latter.
@@ -121,6 +131,9 @@ void add_type_object(eprosima::fastdds::dds::TopicDataType& type, Topic topic) {
   type.auto_fill_type_information(false);
   type.auto_fill_type_object(false);
   if (topic == Topic::worker) announce<WorkerStatus>(type);
+  if (topic == Topic::control) announce<Control>(type);
+  if (topic == Topic::progress) announce<PlacedProgress>(type);
+  if (topic == Topic::loop) announce<LoopNews>(type);
   if (topic == Topic::cause) announce<CauseFound>(type);
   if (topic == Topic::final_figures) announce<FinalFigures>(type);
 }

@@ -6,14 +6,12 @@
 #include "errors/input_error.hpp"
 #include "monitor/event_members.hpp"
 #include "monitor/state_json.hpp"
+#include "protocol/field_kinds.hpp"
 
 namespace demecal::inline monitor {
 namespace {
 
-constexpr std::array kStages{"preparing", "evolving", "closing", "finished", "interrupted", "failed"};
-constexpr std::array kVerdicts{"added", "rejected", "none"};
 constexpr std::array kBreeds{"formulas", "sets"};
-constexpr std::array kRunStates{"running", "finished", "cancelled"};
 
 }  // namespace
 
@@ -50,7 +48,7 @@ void fields(auto& visit, Like<Progress> auto& m) {
 }
 
 void fields(auto& visit, Like<Control> auto& m) {
-  visit("run", AsText{m.run}, "state", OneOf{m.state, kRunStates}, "note", Shown{m.note});
+  visit("run", AsText{m.run}, "state", OneOf{m.state, kWords<Control::State>}, "note", Shown{m.note});
 }
 
 void fields(auto& visit, Like<WorkerStatus> auto& m) {
@@ -69,7 +67,7 @@ void fields(auto& visit, Like<CalibrationLost> auto& m) {
 
 void stage_fields(auto& visit, Like<LoopNews> auto& m) {
   visit("calibration", AsText{m.calibration}, "job", Shown{m.job}, "run", AsText{m.run}, "stage",
-        OneOf{m.stage, kStages}, "text", Shown{m.text});
+        OneOf{m.stage, kWords<LoopNews::Stage>}, "text", Shown{m.text});
 }
 
 /// A joint that is 0 where there is none, and null in the line.
@@ -85,7 +83,7 @@ template <class Visit>
 void round_fields(Visit& visit, Like<LoopNews> auto& m) {
   std::uint32_t round = m.round == 0 ? 0 : m.round - 1;
   visit("calibration", AsText{m.calibration}, "job", Shown{m.job}, "round", FromOne{round});
-  visit("verdict", OneOf{m.verdict, kVerdicts}, "kind", Shown{m.kind});
+  visit("verdict", OneOf{m.verdict, kWords<LoopNews::Verdict>}, "kind", Shown{m.kind});
   joint_field(visit, m.joint);
   visit("label", Shown{m.label}, "text", Shown{m.text});
   visit("validation_before_mm", FigureOr{m.validation_before_m, kUnknown, 1e3}, "validation_after_mm",
@@ -192,15 +190,15 @@ std::optional<Event> read(const JsonValue& json) {
 }  // namespace
 
 std::string to_string(LoopNews::Stage stage) {
-  return kStages.at(static_cast<std::size_t>(stage));
+  return word_of(stage);
 }
 
 std::string to_string(LoopNews::Verdict verdict) {
-  return kVerdicts.at(static_cast<std::size_t>(verdict));
+  return word_of(verdict);
 }
 
 std::string to_string(Control::State state) {
-  return kRunStates.at(static_cast<std::size_t>(state));
+  return word_of(state);
 }
 
 std::string first_event_line() {

@@ -136,6 +136,10 @@ class Decoder {
       std::uint8_t byte = 0;
       get(byte);
       special.field = byte;
+    } else if constexpr (kind == FieldKind::word) {
+      std::string text;
+      get(BoundedField<kMostWord, std::string&>{text});
+      demand(find_word(text, special.field));
     } else {
       get(special.field);
       if constexpr (kind == FieldKind::from_one) count_from_zero(special.field);
@@ -156,6 +160,14 @@ class Decoder {
   void get(const BoundedField<most, std::vector<Element>&>& sequence) {
     get(sequence.field);
     demand(sequence.field.size() <= most);
+  }
+  template <std::size_t most, class Rows, class NumberOf>
+  void get(const ColumnField<most, Rows, NumberOf>& column) {
+    std::uint32_t count = 0;
+    get(count);
+    if (!demand(count <= most && (column.is_first || count == column.rows.size()))) return;
+    if (column.is_first) column.rows.assign(count, {});
+    for (auto& row : column.rows) get(column.number(row));
   }
 
   void count_from_zero(std::uint32_t& index) { demand(index-- > 0); }

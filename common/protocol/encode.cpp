@@ -73,6 +73,9 @@ class Encoder {
       put(from_one_of(special.field));
     } else if constexpr (kind == FieldKind::octet) {
       put(static_cast<std::uint8_t>(special.field));
+    } else if constexpr (kind == FieldKind::word) {
+      const std::string text = word_of(special.field);
+      put(BoundedField<kMostWord, const std::string&>{text});
     } else {
       put(special.field);
     }
@@ -86,6 +89,11 @@ class Encoder {
   template <std::size_t most, class Element>
   void put(const BoundedField<most, const std::vector<Element>&>& sequence) {
     put(sequence.field);
+  }
+  template <std::size_t most, class Rows, class NumberOf>
+  void put(const ColumnField<most, Rows, NumberOf>& column) {
+    put(static_cast<std::uint32_t>(column.rows.size()));
+    for (const auto& row : column.rows) put(column.number(row));
   }
 
   /// Numbers as they are, behind what aligns the first.
@@ -148,6 +156,8 @@ class Scales {
   void weigh(const Value& value) {
     if constexpr (requires { value.field; }) {
       weigh(value.field);
+    } else if constexpr (requires { value.is_first; }) {
+      if (value.is_first) weigh(value.rows);
     } else if constexpr (Listed<const Value>) {
       visit_fields(*this, value);
     } else if constexpr (requires { value.begin(); }) {

@@ -20,8 +20,13 @@ namespace demecal::inline protocol {
 template <class M, class Message>
 concept Fields = std::same_as<std::remove_const_t<M>, Message>;
 
+template <class T>
+concept Number = std::is_arithmetic_v<T>;
+template <class T>
+concept Enumeration = std::is_enum_v<T>;
+
 // A field of a list is a reference to its value, within one or more of these where it is of a special kind.
-enum class FieldKind { key, required, from_one, octet };
+enum class FieldKind { key, required, from_one, octet, word };
 template <FieldKind kind, class Field>
 struct SpecialField {
   Field field;
@@ -51,6 +56,27 @@ template <class Field>
 SpecialField<FieldKind::octet, Field> octet(Field&& field) {
   return {std::forward<Field>(field)};
 }
+/// An enumeration that travels as its word (kWords).
+template <class Field>
+SpecialField<FieldKind::word, Field> word(Field&& field) {
+  return {std::forward<Field>(field)};
+}
+/// One number of each element of `rows`, which travel as a sequence of their own. `number` gives the reference to it.
+/// The first column of some rows says how many there are, the others must have as many.
+template <std::size_t most, class Rows, class NumberOf>
+struct ColumnField {
+  Rows& rows;
+  NumberOf number;
+  bool is_first = false;
+};
+template <std::size_t most, class Rows, class NumberOf>
+ColumnField<most, Rows, NumberOf> first_column(Rows& rows, NumberOf number) {
+  return {rows, number, true};
+}
+template <std::size_t most, class Rows, class NumberOf>
+ColumnField<most, Rows, NumberOf> column(Rows& rows, NumberOf number) {
+  return {rows, number, false};
+}
 /// At most so many bytes of text, or elements. Longer text is cut off when sent; more is refused when received.
 template <std::size_t most, class Field>
 BoundedField<most, Field> bounded(Field&& field) {
@@ -62,7 +88,7 @@ struct EnumerationList {
   std::string_view name;
   std::string_view values;  ///< ", " between them
 };
-template <class Enumeration>
+template <class E>
 inline constexpr EnumerationList kEnumeration{};
 template <>
 inline constexpr EnumerationList kEnumeration<ConstantPolicy>{"ConstantPolicy", "UNFITTED, LAMARCKIAN, BALDWIN"};
@@ -74,18 +100,32 @@ template <>
 inline constexpr EnumerationList kEnumeration<Loss>{"Loss", "ABSOLUTE_ERROR, SQUARED_ERROR"};
 template <>
 inline constexpr EnumerationList kEnumeration<Breeds>{"Breeds", "FORMULAS, SETS"};
-template <>
-inline constexpr EnumerationList kEnumeration<Control::State>{"RunState", "RUNNING, FINISHED, CANCELLED"};
-template <>
-inline constexpr EnumerationList kEnumeration<LoopNews::Stage>{
-    "Stage", "PREPARING, EVOLVING, CLOSING, DONE, INTERRUPTED, FAILED"};
-template <>
-inline constexpr EnumerationList kEnumeration<LoopNews::Verdict>{"RoundVerdict", "ADDED, REJECTED, NOTHING"};
 
-template <class T>
-concept Number = std::is_arithmetic_v<T>;
-template <class T>
-concept Enumeration = std::is_enum_v<T>;
+/// The words of an enumeration that people read, in the order of its values: on monitoring topics and in events.
+template <class E>
+inline constexpr std::array<const char*, 0> kWords{};
+template <>
+inline constexpr std::array kWords<Control::State>{"running", "finished", "cancelled"};
+template <>
+inline constexpr std::array kWords<LoopNews::Stage>{"preparing", "evolving",    "closing",
+                                                    "finished",  "interrupted", "failed"};
+template <>
+inline constexpr std::array kWords<LoopNews::Verdict>{"added", "rejected", "none"};
+/// Bytes of the longest of all words on the wire.
+inline constexpr std::size_t kMostWord = 15;
+
+template <Enumeration E>
+const char* word_of(E value) {
+  return kWords<E>.at(static_cast<std::size_t>(value));
+}
+/// Whether `text` is a word of the enumeration, which `value` is set to.
+template <Enumeration E>
+bool find_word(std::string_view text, E& value) {
+  const auto found = std::ranges::find(kWords<E>, text);
+  if (found == kWords<E>.end()) return false;
+  value = static_cast<E>(found - kWords<E>.begin());
+  return true;
+}
 
 /// How many values the enumeration's list has.
 template <Enumeration E>

@@ -184,18 +184,6 @@ void visit_fields(Visitor& visit, M& m) {
   visit("recent", m.recent);
 }
 
-template <class Visitor, Fields<EpochFigures> M>
-void visit_fields(Visitor& visit, M& m) {
-  visit("epoch", m.epoch);
-  visit("generation", m.generation);
-  visit("best", m.figures.best);
-  visit("median", m.figures.median);
-  visit("best_length", m.figures.best_length);
-  visit("diversity", m.figures.diversity);
-  visit("evaluations", m.evaluations);
-  visit("migrants_taken", m.migrants_taken);
-}
-
 template <class Visitor, Fields<Progress> M>
 void visit_fields(Visitor& visit, M& m) {
   visit_island(visit, m);
@@ -212,7 +200,24 @@ void visit_fields(Visitor& visit, M& m) {
   visit("migrants_sent", m.migrants_sent);
   visit("waited_share", m.waited_share);
   visit("best_formula", bounded<kMostFormulaText>(m.best_formula));
-  visit("before", bounded<kMostReportedEpochs - 1>(m.before));
+  constexpr std::size_t kMostBefore = kMostReportedEpochs - 1;
+  auto& before = m.before;
+  visit("before_epoch", first_column<kMostBefore>(
+                            before, [](auto& one) -> auto& { return one.epoch; }));
+  visit("before_generation", column<kMostBefore>(
+                                 before, [](auto& one) -> auto& { return one.generation; }));
+  visit("before_best", column<kMostBefore>(
+                           before, [](auto& one) -> auto& { return one.figures.best; }));
+  visit("before_median", column<kMostBefore>(
+                             before, [](auto& one) -> auto& { return one.figures.median; }));
+  visit("before_best_length", column<kMostBefore>(
+                                  before, [](auto& one) -> auto& { return one.figures.best_length; }));
+  visit("before_diversity", column<kMostBefore>(
+                                before, [](auto& one) -> auto& { return one.figures.diversity; }));
+  visit("before_evaluations", column<kMostBefore>(
+                                  before, [](auto& one) -> auto& { return one.evaluations; }));
+  visit("before_migrants_taken", column<kMostBefore>(
+                                     before, [](auto& one) -> auto& { return one.migrants_taken; }));
 }
 
 template <class Visitor, Fields<PlacedProgress> M>
@@ -220,7 +225,7 @@ void visit_fields(Visitor& visit, M& m) {
   visit("writer", key(bounded<255>(m.writer)));
   visit("place", key(m.place));
   visit("over", m.over);
-  visit("progress", m.progress);
+  visit_fields(visit, m.progress);
 }
 
 template <class Visitor, Fields<Checkpoint> M>
@@ -258,7 +263,7 @@ void visit_fields(Visitor& visit, M& m) {
 template <class Visitor, Fields<Control> M>
 void visit_fields(Visitor& visit, M& m) {
   visit("run", key(required(m.run)));
-  visit("state", m.state);
+  visit("state", word(m.state));
   visit("note", bounded<1023>(m.note));
 }
 
@@ -267,10 +272,10 @@ void visit_fields(Visitor& visit, M& m) {
   visit("calibration", key(required(m.calibration)));
   visit("round", key(m.round));
   visit("run", m.run);
-  visit("stage", m.stage);
+  visit("stage", word(m.stage));
   visit("job", bounded<255>(m.job));
   visit("text", bounded<1023>(m.text));
-  visit("verdict", m.verdict);
+  visit("verdict", word(m.verdict));
   visit("kind", bounded<63>(m.kind));
   visit("joint", m.joint);
   visit("label", bounded<255>(m.label));

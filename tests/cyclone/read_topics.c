@@ -21,12 +21,12 @@ static void print_worker(const char* topic, const void* sample) {
 }
 static void print_control(const char* topic, const void* sample) {
   const demecal_wire_Control* s = sample;
-  printf("%s\t%" PRIu64 "\t%d\t%s\n", topic, s->run, (int)s->state, s->note);
+  printf("%s\t%" PRIu64 "\t%s\t%s\n", topic, s->run, s->state, s->note);
 }
 static void print_loop(const char* topic, const void* sample) {
   const demecal_wire_LoopNews* s = sample;
-  printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%d\t%s\t%s\t%s\t%" PRIu32 "\t%.17g\n", topic, s->calibration, s->round,
-         (int)s->stage, s->job, s->text, s->label, s->joint, s->validation_after_m);
+  printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%s\t%s\t%s\t%s\t%" PRIu32 "\t%.17g\n", topic, s->calibration, s->round,
+         s->stage, s->job, s->text, s->label, s->joint, s->validation_after_m);
 }
 static void print_cause(const char* topic, const void* sample) {
   const demecal_wire_CauseFound* s = sample;
@@ -39,9 +39,8 @@ static void print_final_figures(const char* topic, const void* sample) {
          s->causes, s->effects, s->validation_before_m, s->validation_after_m, s->accept_before_m, s->accept_after_m);
 }
 static void print_progress(const char* topic, const void* sample) {
-  const demecal_wire_PlacedProgress* s = sample;
-  const demecal_wire_Progress* p = &s->progress;
-  if (s->over) return;
+  const demecal_wire_PlacedProgress* p = sample;
+  if (p->over) return;
   printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%" PRIu32 "\t%" PRIu32 "\t%" PRIu64 "\t%.17g\t%s\n", topic, p->run, p->joint,
          p->deme, p->generation, p->evaluations, p->best, p->best_formula);
 }
@@ -52,11 +51,11 @@ static void print_ros2_worker(const char* topic, const void* sample) {
 }
 static void print_ros2_control(const char* topic, const void* sample) {
   const demecal_msg_dds__Control_* s = sample;
-  printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%s\n", topic, s->run, s->state, s->note);
+  printf("%s\t%" PRIu64 "\t%s\t%s\n", topic, s->run, s->state, s->note);
 }
 static void print_ros2_loop(const char* topic, const void* sample) {
   const demecal_msg_dds__LoopNews_* s = sample;
-  printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%" PRIu32 "\t%s\t%s\t%s\t%" PRIu32 "\t%.17g\n", topic, s->calibration, s->round,
+  printf("%s\t%" PRIu64 "\t%" PRIu32 "\t%s\t%s\t%s\t%s\t%" PRIu32 "\t%.17g\n", topic, s->calibration, s->round,
          s->stage, s->job, s->text, s->label, s->joint, s->validation_after_m);
 }
 static void print_ros2_cause(const char* topic, const void* sample) {
@@ -87,12 +86,12 @@ struct Watched {
 };
 
 static struct Watched watched[] = {
-    {"demecal/8/worker", &demecal_wire_WorkerStatus_desc, print_worker, 0},
-    {"demecal/8/control", &demecal_wire_Control_desc, print_control, 0},
-    {"demecal/8/loop", &demecal_wire_LoopNews_desc, print_loop, 0},
-    {"demecal/8/cause", &demecal_wire_CauseFound_desc, print_cause, 0},
-    {"demecal/8/final_figures", &demecal_wire_FinalFigures_desc, print_final_figures, 0},
-    {"demecal/8/progress", &demecal_wire_PlacedProgress_desc, print_progress, 0},
+    {"demecal/9/worker", &demecal_wire_WorkerStatus_desc, print_worker, 0},
+    {"demecal/9/control", &demecal_wire_Control_desc, print_control, 0},
+    {"demecal/9/loop", &demecal_wire_LoopNews_desc, print_loop, 0},
+    {"demecal/9/cause", &demecal_wire_CauseFound_desc, print_cause, 0},
+    {"demecal/9/final_figures", &demecal_wire_FinalFigures_desc, print_final_figures, 0},
+    {"demecal/9/progress", &demecal_wire_PlacedProgress_desc, print_progress, 0},
     {"rt/demecal/worker", &demecal_msg_dds__WorkerStatus__desc, print_ros2_worker, 0},
     {"rt/demecal/run_state", &demecal_msg_dds__Control__desc, print_ros2_control, 0},
     {"rt/demecal/loop", &demecal_msg_dds__LoopNews__desc, print_ros2_loop, 0},

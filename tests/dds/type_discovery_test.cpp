@@ -17,6 +17,7 @@
 
 #include "dds/participant.hpp"
 #include "network.hpp"
+#include "protocol/field_kinds.hpp"
 #include "random_messages.hpp"
 
 namespace demecal {
@@ -85,8 +86,9 @@ types::MemberId member(const types::DynamicData_ptr& sample, const char* name) {
   return sample->get_member_id_by_name(name);
 }
 
-TEST(TypeDiscovery, LetsAProgramWithoutTheDocumentReadStatusCausesAndFigures) {
+TEST(TypeDiscovery, LetsAProgramWithoutTheDocumentReadWhatIsForPeople) {
   DdsNetwork network;
+  const auto coordinator = network.join(Role::coordinator, "coordinator");
   const auto worker = network.join(Role::worker, "worker");
   const auto reporter = network.join(Role::reporter, "reporter");
   RandomMessages random(11);
@@ -95,7 +97,12 @@ TEST(TypeDiscovery, LetsAProgramWithoutTheDocumentReadStatusCausesAndFigures) {
   CauseFound cause = random.cause();
   FinalFigures figures = random.figures();
   cause.calibration = figures.calibration = news.calibration;
+  const Control control = random.control();
+  Progress progress = random.progress();
+  progress.before.resize(3);
+  coordinator->publish(control);
   worker->publish(status);
+  worker->publish(progress);
   reporter->publish(news);
   reporter->publish(cause);
   reporter->publish(figures);
@@ -109,6 +116,36 @@ TEST(TypeDiscovery, LetsAProgramWithoutTheDocumentReadStatusCausesAndFigures) {
   EXPECT_EQ(read_status->get_bool_value(member(read_status, "leaving")), status.leaving);
   EXPECT_EQ(read_status->get_uint64_value(member(read_status, "only_run")), status.only_run);
   EXPECT_EQ(read_status->get_float64_value(member(read_status, "waited_share")), status.waited_share);
+
+  const auto read_control = stranger.read(Topic::control);
+  ASSERT_TRUE(read_control);
+  EXPECT_EQ(read_control->get_uint64_value(member(read_control, "run")), control.run);
+  EXPECT_EQ(read_control->get_string_value(member(read_control, "state")), "running");
+  EXPECT_EQ(read_control->get_string_value(member(read_control, "note")), control.note);
+
+  const auto read_progress = stranger.read(Topic::progress);
+  ASSERT_TRUE(read_progress);
+  EXPECT_EQ(read_progress->get_string_value(member(read_progress, "worker")), progress.worker);
+  EXPECT_EQ(read_progress->get_uint32_value(member(read_progress, "epoch")), progress.epoch);
+  EXPECT_EQ(read_progress->get_float64_value(member(read_progress, "best")), progress.figures.best);
+  EXPECT_EQ(read_progress->get_string_value(member(read_progress, "best_formula")), progress.best_formula);
+  auto* const epochs = read_progress->loan_value(member(read_progress, "before_epoch"));
+  auto* const medians = read_progress->loan_value(member(read_progress, "before_median"));
+  ASSERT_EQ(epochs->get_item_count(), progress.before.size());
+  ASSERT_EQ(medians->get_item_count(), progress.before.size());
+  for (std::uint32_t i = 0; i < progress.before.size(); ++i) {
+    EXPECT_EQ(epochs->get_uint32_value(i), progress.before[i].epoch);
+    EXPECT_EQ(medians->get_float64_value(i), progress.before[i].figures.median);
+  }
+  read_progress->return_loaned_value(epochs);
+  read_progress->return_loaned_value(medians);
+
+  const auto read_news = stranger.read(Topic::loop);
+  ASSERT_TRUE(read_news);
+  EXPECT_EQ(read_news->get_uint64_value(member(read_news, "calibration")), news.calibration);
+  EXPECT_EQ(read_news->get_string_value(member(read_news, "stage")), word_of(news.stage));
+  EXPECT_EQ(read_news->get_string_value(member(read_news, "verdict")), word_of(news.verdict));
+  EXPECT_EQ(read_news->get_string_value(member(read_news, "label")), news.label);
 
   const auto read_cause = stranger.read(Topic::cause);
   ASSERT_TRUE(read_cause);

@@ -51,8 +51,7 @@ TEST(Types, AreThoseOfTheDocument) {
   RandomMessages random(3);
   for (int i = 0; i < 20; ++i) {
     expect_to_be<wire::MessagePartPubSubType>(Topic::task, MessagePart{random.number(), 1, 2, random.number(), {7, 8}});
-    expect_to_be<wire::PlacedProgressPubSubType>(
-        Topic::progress, PlacedProgress{random.text(), random.number(), false, random.progress()});
+    expect_to_be<wire::PlacedProgressPubSubType>(Topic::progress, random.placed_progress());
     expect_to_be<wire::WorkerStatusPubSubType>(Topic::worker, random.status());
     expect_to_be<wire::ControlPubSubType>(Topic::control, random.control());
     expect_to_be<wire::LoopNewsPubSubType>(Topic::loop, random.news());
@@ -137,7 +136,7 @@ TEST(Dds, SamplesAreReadByAnyProgramWithTheDocumentsTypes) {
   reporter->publish(figures);
   Tool tool;
   EXPECT_EQ(decode<WorkerStatus>(tool.read<wire::WorkerStatusPubSubType>(Topic::worker)), status);
-  EXPECT_EQ(decode<Progress>(tool.read<wire::PlacedProgressPubSubType>(Topic::progress).progress()), progress);
+  EXPECT_EQ(decode<PlacedProgress>(tool.read<wire::PlacedProgressPubSubType>(Topic::progress))->progress, progress);
   EXPECT_EQ(decode<Control>(tool.read<wire::ControlPubSubType>(Topic::control)), control);
   EXPECT_EQ(decode<LoopNews>(tool.read<wire::LoopNewsPubSubType>(Topic::loop)), news);
   EXPECT_EQ(decode<CauseFound>(tool.read<wire::CauseFoundPubSubType>(Topic::cause)), cause);

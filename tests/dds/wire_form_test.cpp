@@ -27,7 +27,7 @@ TEST(WireForm, IsThatOfTheDocumentForEveryMessage) {
   expect_the_same_form<wire::CalibrationData>(&RandomMessages::data);
   expect_the_same_form<wire::IslandTask>(&RandomMessages::task);
   expect_the_same_form<wire::Migrants>(&RandomMessages::migrants);
-  expect_the_same_form<wire::Progress>(&RandomMessages::progress);
+  expect_the_same_form<wire::PlacedProgress>(&RandomMessages::placed_progress);
   expect_the_same_form<wire::Checkpoint>(&RandomMessages::checkpoint);
   expect_the_same_form<wire::Outcome>(&RandomMessages::outcome);
   expect_the_same_form<wire::WorkerStatus>(&RandomMessages::status);
@@ -40,29 +40,23 @@ TEST(WireForm, IsThatOfTheDocumentForEveryMessage) {
   EXPECT_EQ(decode<MessagePart>(encode<wire::MessagePart>(part)), part);
 }
 
-TEST(WireForm, HasTheDocumentsCodes) {
+TEST(WireForm, HasTheWordsThatEventsHave) {
   using enum LoopNews::Stage;
   using enum LoopNews::Verdict;
-  const std::vector<std::pair<LoopNews::Stage, wire::Stage>> stages{
-      {preparing, wire::PREPARING}, {evolving, wire::EVOLVING},       {closing, wire::CLOSING},
-      {finished, wire::DONE},       {interrupted, wire::INTERRUPTED}, {failed, wire::FAILED}};
-  const std::vector<std::pair<LoopNews::Verdict, wire::RoundVerdict>> verdicts{
-      {added, wire::ADDED}, {rejected, wire::REJECTED}, {LoopNews::Verdict::none, wire::NOTHING}};
   LoopNews news = RandomMessages(3).news();
-  for (const auto& [stage, code] : stages) {
+  for (const auto& [stage, text] : {std::pair(preparing, "preparing"), std::pair(finished, "finished"),
+                                    std::pair(interrupted, "interrupted"), std::pair(failed, "failed")}) {
     news.stage = stage;
-    EXPECT_EQ(encode<wire::LoopNews>(news).stage(), code);
+    EXPECT_EQ(encode<wire::LoopNews>(news).stage(), text);
   }
-  for (const auto& [verdict, code] : verdicts) {
+  for (const auto& [verdict, text] : {std::pair(added, "added"), std::pair(LoopNews::Verdict::none, "none")}) {
     news.verdict = verdict;
-    EXPECT_EQ(encode<wire::LoopNews>(news).verdict(), code);
+    EXPECT_EQ(encode<wire::LoopNews>(news).verdict(), text);
   }
-  const std::vector<std::pair<Control::State, wire::RunState>> states{{Control::State::running, wire::RUNNING},
-                                                                      {Control::State::finished, wire::FINISHED},
-                                                                      {Control::State::cancelled, wire::CANCELLED}};
-  for (const auto& [state, code] : states) {
+  for (const auto& [state, text] :
+       {std::pair(Control::State::running, "running"), std::pair(Control::State::cancelled, "cancelled")}) {
     const Control control{3, state, "note"};
-    EXPECT_EQ(encode<wire::Control>(control).state(), code);
+    EXPECT_EQ(encode<wire::Control>(control).state(), text);
     EXPECT_EQ(decode<Control>(encode<wire::Control>(control)), control);
   }
 }
@@ -171,13 +165,13 @@ TEST(WireForm, OneBadFormulaRefusesTheMessageThatHoldsIt) {
 }
 
 TEST(WireForm, JointOrDemeZeroIsRefused) {
-  auto progress = encode<wire::Progress>(RandomMessages(3).progress());
-  ASSERT_TRUE(decode<Progress>(progress).has_value());
+  auto progress = encode<wire::PlacedProgress>(RandomMessages(3).placed_progress());
+  ASSERT_TRUE(decode<PlacedProgress>(progress).has_value());
   progress.joint(0);
-  EXPECT_FALSE(decode<Progress>(progress).has_value());
+  EXPECT_FALSE(decode<PlacedProgress>(progress).has_value());
   progress.joint(1);
   progress.deme(0);
-  EXPECT_FALSE(decode<Progress>(progress).has_value());
+  EXPECT_FALSE(decode<PlacedProgress>(progress).has_value());
 }
 
 TEST(WireForm, UnknownCodesInARunsDataAreRefused) {
@@ -196,22 +190,42 @@ TEST(WireForm, AnUnknownStageVerdictOrStateIsRefused) {
   const auto sound = encode<wire::LoopNews>(RandomMessages(3).news());
   ASSERT_TRUE(decode<LoopNews>(sound).has_value());
   wire::LoopNews stage = sound, verdict = sound;
-  stage.stage(static_cast<wire::Stage>(6));
+  stage.stage("done");
   EXPECT_FALSE(decode<LoopNews>(stage).has_value());
-  verdict.verdict(static_cast<wire::RoundVerdict>(3));
+  verdict.verdict("");
   EXPECT_FALSE(decode<LoopNews>(verdict).has_value());
   wire::Control control;
   control.run(1);
-  control.state(static_cast<wire::RunState>(3));
+  control.state("running on");
   EXPECT_FALSE(decode<Control>(control).has_value());
 }
 
+/// So many epochs before the present one.
+wire::PlacedProgress with_epochs(std::size_t count) {
+  auto progress = encode<wire::PlacedProgress>(RandomMessages(3).placed_progress());
+  for (auto* column : {&progress.before_epoch(), &progress.before_generation(), &progress.before_best_length()})
+    column->resize(count);
+  for (auto* column : {&progress.before_best(), &progress.before_median(), &progress.before_diversity()})
+    column->resize(count);
+  for (auto* column : {&progress.before_evaluations(), &progress.before_migrants_taken()}) column->resize(count);
+  return progress;
+}
+
 TEST(WireForm, MoreEpochsAtOnceThanAreAllowedAreRefused) {
-  auto progress = encode<wire::Progress>(RandomMessages(3).progress());
-  progress.before().resize(255);
-  EXPECT_TRUE(decode<Progress>(progress).has_value());
-  progress.before().resize(256);
-  EXPECT_FALSE(decode<Progress>(progress).has_value());
+  EXPECT_TRUE(decode<PlacedProgress>(with_epochs(255)).has_value());
+  EXPECT_FALSE(decode<PlacedProgress>(with_epochs(256)).has_value());
+}
+
+TEST(WireForm, FiguresOfMoreOrFewerEpochsThanThereAreAreRefused) {
+  for (const std::size_t other : {0u, 2u, 4u}) {
+    auto progress = with_epochs(3);
+    ASSERT_TRUE(decode<PlacedProgress>(progress).has_value());
+    progress.before_median().resize(other);
+    EXPECT_FALSE(decode<PlacedProgress>(progress).has_value());
+    progress = with_epochs(3);
+    progress.before_epoch().resize(other);
+    EXPECT_FALSE(decode<PlacedProgress>(progress).has_value());
+  }
 }
 
 }  // namespace

@@ -89,11 +89,6 @@ Lines chosen(const Lines& samples, const std::vector<std::size_t>& cells) {
   return lines;
 }
 
-/// States are numbers on the wire.
-std::string number_of_state(const std::string& state) {
-  return state == "running" ? "0" : state == "finished" ? "1" : "2";
-}
-
 /// Metres as the monitor prints them: in mm, unknown ones as null.
 std::string in_millimetres(const std::string& metres) {
   const double value = 1e3 * std::stod(metres);
@@ -170,7 +165,7 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
     const std::string word = event["event"];
     if (word == "begin") continue;
     lines.insert({line});
-    if (word == "run_state") controls.insert({event["run"], number_of_state(event["state"])});
+    if (word == "run_state") controls.insert({text_of(event["run"]), text_of(event["state"])});
     if (word == "worker")
       workers.insert({event["worker"], event["host"], text_of(event["process"]), text_of(event["slots"])});
     if (word == "stage" || word == "round")
@@ -186,7 +181,7 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   // Corrections have two for each joint, explanations four.
   EXPECT_THAT(islands_of_runs, Each(Pair(_, AnyOf(12, 4))));
   EXPECT_THAT(islands_of_runs, Contains(Pair(_, 12)));
-  for (const std::string own : {"demecal/8/", "rt/demecal/"}) {
+  for (const std::string own : {"demecal/9/", "rt/demecal/"}) {
     EXPECT_EQ(last_of_islands(topics[own + "progress"]), last_of_islands(progress)) << own;
     EXPECT_THAT(chosen(topics[own + "worker"], {0, 1, 2, 3}), ContainerEq(workers)) << own;
   }
@@ -201,12 +196,12 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   ASSERT_EQ(figures.size(), 1u);
   EXPECT_EQ(figures.begin()->at(2), std::to_string(causes.size()));
   EXPECT_THAT(causes, Contains(Contains("lost motion of joint 2")));
-  for (const std::string own : {"demecal/8/", "rt/demecal/"}) {
+  for (const std::string own : {"demecal/9/", "rt/demecal/"}) {
     EXPECT_THAT(causes_of(topics[own + "cause"]), ContainerEq(causes)) << own;
     EXPECT_THAT(figures_of(topics[own + "final_figures"]), ContainerEq(figures)) << own;
   }
   // Of these the writer keeps the last value alone: a reader that is slow misses what it replaced.
-  const Lines ends = chosen(topics["demecal/8/loop"], {0, 1, 4}), states = chosen(topics["demecal/8/control"], {0, 1});
+  const Lines ends = chosen(topics["demecal/9/loop"], {0, 1, 4}), states = chosen(topics["demecal/9/control"], {0, 1});
   EXPECT_THAT(ends, IsSubsetOf(loop));
   EXPECT_THAT(loop, Contains(ElementsAre(_, "0", HasSubstr("finished"))));
   for (const auto& line : loop) {
@@ -215,7 +210,7 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
     }
   }
   for (const auto& line : controls) {
-    if (line[1] == "1") {
+    if (line[1] == "finished") {
       EXPECT_THAT(states, Contains(line));
     }
   }
@@ -231,7 +226,7 @@ TEST_F(OtherDds, ChangesNothingOfTheModelWithTwentyReadersOneOfThemStopped) {
         std::make_unique<StartedProgram>("read-topics", std::vector<std::string>{other_domain(2), "300"}));
   for (const auto& reader : readers) ASSERT_TRUE(reader->wait_for_out("reading"));
   StartedProgram coordinator("demecal", calibrate(job, "read", 2));
-  ASSERT_TRUE(readers[0]->wait_for_out("demecal/8/progress"));
+  ASSERT_TRUE(readers[0]->wait_for_out("demecal/9/progress"));
   readers[0]->signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait(std::chrono::seconds(240)).code, 0);
   const std::string alone = job.text("alone/model.yaml");

@@ -28,7 +28,7 @@ void with_every_kind(Check check) {
     check(random.news());
     check(random.cause());
     check(random.figures());
-    check(PlacedProgress{random.text(), random.number(), true, random.progress()});
+    check(random.placed_progress());
     check(MessagePart{random.number(), 1, 2, random.number(), std::vector<std::uint8_t>(random.number() % 500, 9)});
   }
 }
@@ -152,9 +152,10 @@ TEST(Samples, MayEndWithWhatFillsAWord) {
 }
 
 TEST(Samples, OfTheOtherOrderOfBytesAreRead) {
-  std::string numbers("\0\0\0\0\0\0\0\0\0\0\0\7\0\0\0\2\0\0\0\3ok", 22);
-  numbers += '\0';
-  EXPECT_EQ(from_sample<Control>(numbers), (Control{7, Control::State::cancelled, "ok"}));
+  // cancelled: ten bytes with the zero at its end, and two that align the next count.
+  std::string content("\0\0\0\0\0\0\0\0\0\0\0\7\0\0\0\12cancelled\0\0\0\0\0\0\3ok", 34);
+  content += '\0';
+  EXPECT_EQ(from_sample<Control>(content), (Control{7, Control::State::cancelled, "ok"}));
   const std::string bytes = to_bytes(RandomMessages(83).control());
   EXPECT_FALSE(from_sample<Control>(std::string(4, '\0') + bytes));
 }

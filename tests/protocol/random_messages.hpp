@@ -100,6 +100,7 @@ class RandomMessages {
             number(), random_.real(), text(),
             before()};
   }
+  PlacedProgress placed_progress() { return {text(), number(), random_.chance(0.5), progress()}; }
   std::vector<EpochFigures> before() {
     std::vector<EpochFigures> figures(random_.index(kMostReportedEpochs));
     for (EpochFigures& one : figures)
