@@ -87,6 +87,7 @@ CheckedData load_checked(std::span<const std::string> paths, StationTools tools,
         "{}: times are left out, since those of two stations overlap and clocks may differ: drift is looked for in "
         "the order of the rows alone\n",
         checked.data.file);
+  for (Finding& finding : check_stations(checked.data)) checked.check.findings.push_back(std::move(finding));
   if (paths.size() > 1) checked.data.sha256 = sha256(checked.data.sha256);
   return checked;
 }

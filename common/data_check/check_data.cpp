@@ -30,24 +30,7 @@ constexpr std::size_t kFewestRows = 6;   ///< below which base and tool alone ex
 
 class DataChecker {
  public:
-  explicit DataChecker(const DataSet& data) : data_(data) {
-    whole_.chain = data.robot.chain;
-    for (const MeasuredPose& pose : data.poses) {
-      if (target_of_.try_emplace(pose.target, static_cast<int>(whole_.tools_m.size())).second)
-        whole_.tools_m.push_back(nominal_tool(data, pose));
-    }
-    for (std::size_t i = 0; i < data.poses.size(); ++i) {
-      const MeasuredPose& pose = data.poses[i];
-      if (!pose.position_m) continue;
-      whole_.rows.push_back({.joints = pose.joints,
-                             .point_m = *pose.position_m,
-                             .target = target_of_.at(pose.target),
-                             .pose = i,
-                             .sides = pose.approach.value_or(ApproachSigns()),
-                             .payload_kg = pose.payload_kg.value_or(0.0),
-                             .temperature_celsius = pose.temperature_celsius.value_or(0.0)});
-    }
-  }
+  explicit DataChecker(const DataSet& data) : data_(data), whole_(measured_trial(data, &target_of_)) {}
 
   std::optional<Eigen::Vector3d> tool_elsewhere() {
     trial_ = calibration_rows();
@@ -191,6 +174,31 @@ class DataChecker {
 };
 
 }  // namespace
+
+Trial measured_trial(const DataSet& data, std::map<std::string, int>* target_of) {
+  Trial trial{data.robot.chain, {}, {}, std::max(1, static_cast<int>(data.stations.size()))};
+  std::map<std::string, int> targets, stations;
+  for (const MeasuredPose& pose : data.poses) {
+    if (targets.try_emplace(pose.target, static_cast<int>(trial.tools_m.size())).second)
+      trial.tools_m.push_back(nominal_tool(data, pose));
+  }
+  // The first station's poses name none.
+  for (std::size_t i = 1; i < data.stations.size(); ++i) stations[data.stations[i].name] = static_cast<int>(i);
+  for (std::size_t i = 0; i < data.poses.size(); ++i) {
+    const MeasuredPose& pose = data.poses[i];
+    if (!pose.position_m) continue;
+    trial.rows.push_back({.joints = pose.joints,
+                          .point_m = *pose.position_m,
+                          .target = targets.at(pose.target),
+                          .station = pose.station.empty() ? 0 : stations.at(pose.station),
+                          .pose = i,
+                          .sides = pose.approach.value_or(ApproachSigns()),
+                          .payload_kg = pose.payload_kg.value_or(0.0),
+                          .temperature_celsius = pose.temperature_celsius.value_or(0.0)});
+  }
+  if (target_of != nullptr) *target_of = std::move(targets);
+  return trial;
+}
 
 std::optional<Eigen::Vector3d> tool_elsewhere(const DataSet& data) {
   return DataChecker(data).tool_elsewhere();

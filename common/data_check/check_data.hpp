@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
 #include "data/data_set.hpp"
 #include "parameters/posterior.hpp"
@@ -34,6 +35,10 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, const std::o
 
 /// Throws InputError where a joint stands far outside its limits in a pose that no finding names.
 void require_joint_limits(const DataSet& data, const DataCheck& check);
+
+/// Whether the stations of a joined set (joined_stations) can have measured one arm: a joint's zero that is another at
+/// some of them, or else that an arm of its own fits one three times as well as one arm fits all.
+std::vector<Finding> check_stations(const DataSet& joined);
 
 /// As every command takes data up: takes copies of rows out, checks the rest, and returns what was found of both.
 /// Throws InputError as require_joint_limits(), unless the data contradict the arm.

@@ -19,14 +19,9 @@
 namespace demecal::inline data_check {
 namespace {
 
-std::string zero_text(const Chain& chain, const InstrumentMove& move) {
-  const double by = std::abs(move.by);
-  return is_revolute(chain, move.joint) ? fmt::format("{:.3f} deg", degrees(by)) : distance_text(by);
-}
-
 std::string clause_of(const Chain& chain, const InstrumentMove& move) {
   if (move.joint >= 0)
-    return fmt::format("a change of the zero of joint {} by {}", move.joint + 1, zero_text(chain, move));
+    return fmt::format("a change of the zero of joint {} by {}", move.joint + 1, zero_text(chain, move.joint, move.by));
   if (!move.other_tools.empty())
     return fmt::format("a tool that stands {} elsewhere on the flange", distance_text(move.shift_m));
   return fmt::format("an instrument that moved by {}", distance_text(move.shift_m));
@@ -169,8 +164,9 @@ class MovesTakenOut {
     finding.sentence = fmt::format(
         "The zero of joint {} changed before line {}{}, by {}, as after a collision or a new mastering{}: from there "
         "on points lie {} elsewhere {}. Treat the poses before and after as two data sets, or measure again.{}{}",
-        move.joint + 1, there.line, name_beside_line(there), zero_text(chain, move), same_turn(chain, move.joint),
-        distance_text(move.shift_m), before_and_after(move.as_given_m, move.if_changed_m), rivals_text(chain, move),
+        move.joint + 1, there.line, name_beside_line(there), zero_text(chain, move.joint, move.by),
+        same_turn(chain, move.joint), distance_text(move.shift_m), before_and_after(move.as_given_m, move.if_changed_m),
+        rivals_text(chain, move),
         goes_with_ways ? " Joints turn back near there, and lost motion of theirs explains it as well: state the side "
                          "of approach of every pose (columns `approach`), or measure poses from both sides in turn."
                        : "");
@@ -235,6 +231,10 @@ class MovesTakenOut {
 };
 
 }  // namespace
+
+std::string zero_text(const Chain& chain, int joint, double by) {
+  return is_revolute(chain, joint) ? fmt::format("{:.3f} deg", degrees(std::abs(by))) : distance_text(std::abs(by));
+}
 
 std::vector<Finding> take_out_moves(const DataSet& data, CheckedRows& rows, TrialFit& fit) {
   return MovesTakenOut(data, rows, fit).run();

@@ -32,6 +32,13 @@ struct CheckedRows {
   Trial trial;
 };
 
+/// The points that were measured, in the order of the poses, as the description has the arm; tools in the order in
+/// which they occur, which `target_of` is set to where it is given.
+Trial measured_trial(const DataSet& data, std::map<std::string, int>* target_of = nullptr);
+
+/// A change of a joint's zero in words: "0.057 deg".
+std::string zero_text(const Chain& chain, int joint, double by);
+
 /// What contradicts the robot's description, if anything does: `fit` is that of links to `rows.trial`, `placed` that of
 /// base and tools alone. Where the median error is notable the explanations of whole_set_explanations(), shifts of rows
 /// and moves of the instrument are tried; one that halves the error is named (a move is not: no contradiction). An

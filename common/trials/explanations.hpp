@@ -115,6 +115,20 @@ std::optional<Jump> find_zero_jump(const Trial& trial, const TrialFit& fit);
 /// Drift of instrument, joints and that tool must explain it worse.
 std::optional<Jump> find_tool_jump(const Trial& trial, const TrialFit& fit);
 
+/// A joint whose zero is another at some stations of the instrument than at the others.
+struct StationZero {
+  int joint = -1;               ///< from 0
+  double by = 0.0;              ///< what must be added to the joint at those stations, rad or m
+  std::vector<int> stations{};  ///< one, or one and all behind it
+  double as_given_m = 0.0;      ///< the larger median error, of those stations' rows and of the others, with one zero
+  double if_changed_m = 0.0;    ///< the same with two
+};
+
+/// The zero that differs most, where two explain the rows far better than one does, and beyond what goes with sides of
+/// approach, payload and temperature. Stations have bases of their own, so that of joint 1 cannot be told, and with
+/// tools of their own that of the last joint neither.
+std::optional<StationZero> find_station_zero(const Trial& trial, const TrialFit& fit);
+
 /// Splits the rows, in the order of measuring, where two places of the instrument explain them far better than one, and
 /// beyond drift, linear, settling or there and back, and what goes with sides of approach, payload and temperature, or
 /// two zeros of a joint, or two tools, do in fewer nats, with what comes near them as rivals, and looks again; `trial`

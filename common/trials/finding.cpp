@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 38> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 39> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -30,6 +30,7 @@ constexpr std::array<KindRow, 38> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::rows_exchanged, "rows_exchanged", false},
                                           {FindingKind::instrument_moved, "instrument_moved", false},
                                           {FindingKind::joint_zero_changed, "joint_zero_changed", false},
+                                          {FindingKind::stations_differ, "stations_differ", false},
                                           {FindingKind::computed_positions, "computed_positions", false},
                                           {FindingKind::coarse_values, "coarse_values", false},
                                           {FindingKind::taken_in_motion, "taken_in_motion", false},

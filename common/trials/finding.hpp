@@ -23,6 +23,7 @@ enum class FindingKind {
   rows_exchanged,
   instrument_moved,
   joint_zero_changed,
+  stations_differ,
   computed_positions,
   coarse_values,
   taken_in_motion,

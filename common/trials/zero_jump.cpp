@@ -109,7 +109,90 @@ double median_between(const std::vector<double>& errors, std::size_t begin, std:
       {errors.begin() + static_cast<std::ptrdiff_t>(begin), errors.begin() + static_cast<std::ptrdiff_t>(end)});
 }
 
+bool has_station(const StationZero& zero, const TrialRow& row) {
+  return std::ranges::find(zero.stations, row.station) != zero.stations.end();
+}
+
+/// What moves the joint at those stations alone.
+Eigen::VectorXd column_at(const Trial& trial, const TrialFit& fit, const StationZero& zero) {
+  Eigen::VectorXd column = joint_column(trial, fit, zero.joint);
+  for (std::size_t i = 0; i < trial.rows.size(); ++i)
+    if (!has_station(zero, trial.rows[i])) column.segment<3>(3 * static_cast<Eigen::Index>(i)).setZero();
+  return column;
+}
+
+/// Every station behind the first, alone and with all that follow it; of more than two the first one too.
+std::vector<std::vector<int>> groups_of_stations(int count) {
+  std::vector<std::vector<int>> groups;
+  for (int first = count > 2 ? 0 : 1; first < count; ++first) {
+    groups.push_back({first});
+    if (first == 0 || first + 1 == count) continue;
+    groups.push_back({});
+    for (int station = first; station < count; ++station) groups.back().push_back(station);
+  }
+  return groups;
+}
+
+StationZero likeliest_zero(const Trial& trial, const TrialFit& fit) {
+  const ProjectedColumns projected(trial, fit);
+  StationZero best;
+  double most = 0.0;
+  for (const std::vector<int>& stations : groups_of_stations(trial.stations)) {
+    for (int joint = 0; joint < trial.chain.size(); ++joint) {
+      StationZero one{.joint = joint, .stations = stations};
+      const Eigen::VectorXd column = column_at(trial, fit, one);
+      const double with_error = projected.with_error(column)[0], with_itself = projected.with_itself(column)(0, 0);
+      const double gain = 0.5 * with_error * with_error / with_itself;
+      if (gain <= most) continue;
+      most = gain;
+      one.by = with_error / with_itself;
+      best = std::move(one);
+    }
+  }
+  return best;
+}
+
+/// The larger median, of the rows at those stations and of the others.
+double larger_median(const Trial& trial, const TrialFit& fit, const StationZero& zero) {
+  std::vector<double> there, elsewhere;
+  for (std::size_t i = 0; i < trial.rows.size(); ++i)
+    (has_station(zero, trial.rows[i]) ? there : elsewhere).push_back(fit.error_m[i]);
+  return std::max(median(std::move(there)), median(std::move(elsewhere)));
+}
+
 }  // namespace
+
+std::optional<StationZero> find_station_zero(const Trial& trial, const TrialFit& fit) {
+  if (trial.stations < 2 || !fit.has_links()) return std::nullopt;
+  StationZero zero = likeliest_zero(trial, fit);
+  if (zero.joint < 0) return std::nullopt;
+  TrialFit changed;
+  for (int i = 0; i < kRefits; ++i) {
+    Trial other = trial;
+    for (TrialRow& row : other.rows)
+      if (has_station(zero, row)) row.joints[zero.joint] += zero.by;
+    changed = fit_arm(other, fit_base_and_tools(other));
+    if (!changed.has_links()) return std::nullopt;
+    if (i + 1 == kRefits) break;
+    const ProjectedColumns again(other, changed);
+    const Eigen::VectorXd column = column_at(other, changed, zero);
+    zero.by += again.with_error(column)[0] / again.with_itself(column)(0, 0);
+  }
+  zero.as_given_m = larger_median(trial, fit, zero);
+  zero.if_changed_m = larger_median(trial, changed, zero);
+  const double least = kJumpGain * changed.rows_per_pose;
+  if (std::abs(zero.by) > kMostJump || zero.if_changed_m > kJumpFall * zero.as_given_m ||
+      zero.as_given_m < std::max(kJumpDeviations * changed.deviation_m, kSmallestShift_m) ||
+      gained(fit.error_m, changed) < least || gained(fit_arm_to_all(trial, fit).error_m, changed) < least)
+    return std::nullopt;
+  if (std::abs(zero.by) > most_by_conditions(trial)) return zero;
+  const double sharper = fit.deviation_m / changed.deviation_m;
+  const double beyond =
+      sharper * sharper *
+      ProjectedColumns(trial, fit).gain_beyond(column_at(trial, fit, zero), condition_columns(trial, fit));
+  if (beyond < kGainOverDrift * fit.rows_per_pose) return std::nullopt;
+  return zero;
+}
 
 std::optional<Jump> find_zero_jump(const Trial& trial, const TrialFit& fit) {
   const std::size_t n = trial.rows.size();
