@@ -18,6 +18,7 @@
 #include "kinematics/units.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
+#include "planning/candidates.hpp"
 #include "planning/way.hpp"
 #include "prediction/corrected_robot.hpp"
 
@@ -28,6 +29,14 @@ constexpr double kInstrument_m = 20e-6;             ///< a laser tracker's noise
 constexpr double kPlay_m = 50e-6;                   ///< of a ball in its socket
 constexpr double kUnknownNoise_m = 50e-6;           ///< where the arm's repeatability is not known either
 constexpr double kRepeatabilityToAxis = 1.0 / 3.6;  ///< ISO 9283: mean distance plus three deviations, of three axes
+
+/// The noise of a measured position per axis, m: as the cell states it, or of a tracker (a ball in its socket, where
+/// sockets are touched) and the arm's repeatability.
+double noise_of(const Robot& robot, const WorkCell& cell, bool by_touch) {
+  if (cell.noise_m) return *cell.noise_m;
+  if (!robot.repeatability_m) return kUnknownNoise_m;
+  return std::hypot(by_touch ? kPlay_m : kInstrument_m, kRepeatabilityToAxis * *robot.repeatability_m);
+}
 
 std::string radii_sentence(const PlanRequest& request, const WorkCell& cell) {
   return fmt::format(
@@ -151,10 +160,16 @@ bool is_held(const std::vector<UnidentifiedDirection>& directions, const Paramet
 
 }  // namespace
 
-double noise_of(const Robot& robot, const WorkCell& cell, bool by_touch) {
-  if (cell.noise_m) return *cell.noise_m;
-  if (!robot.repeatability_m) return kUnknownNoise_m;
-  return std::hypot(by_touch ? kPlay_m : kInstrument_m, kRepeatabilityToAxis * *robot.repeatability_m);
+PlannedModel model_of(const PlanRequest& request, const FeasibleSpace& space) {
+  PlannedModel model;
+  model.by_touch = request.places.has_value();
+  model.nominal.robot = request.robot;
+  model.nominal.tools_m = request.tools_m;
+  model.declared = request.declared;
+  model.orientation = space.cell().instrument && space.cell().instrument->measures_orientation;
+  model.effects = effects_to_detect(request.robot, space.ranges(), request.detect, model.orientation);
+  model.noise_m = noise_of(request.robot, space.cell(), model.by_touch);
+  return model;
 }
 
 int fewest_poses(const InformationModel& model) {

@@ -11,9 +11,8 @@
 
 namespace demecal::inline planning {
 
-/// The noise of a measured position per axis, m: as the cell states it, or of a tracker (a ball in
-/// its socket, where sockets are touched) and the arm's repeatability.
-double noise_of(const Robot& robot, const WorkCell& cell, bool by_touch);
+/// What is declared, the effects that are to be told apart and that a measurement in `space` could show, and the noise.
+PlannedModel model_of(const PlanRequest& request, const FeasibleSpace& space);
 
 /// The fewest poses that measure more numbers than the model has.
 int fewest_poses(const InformationModel& model);

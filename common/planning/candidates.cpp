@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <cmath>
 #include <ranges>
 #include <string>
 #include <utility>
@@ -102,6 +103,12 @@ std::vector<Effect> effects_to_detect(const Robot& robot, const std::vector<Inte
     for (Effect& effect : plainest(*law, robot, law->proposals(robot, evidence))) effects.push_back(std::move(effect));
   }
   return effects;
+}
+
+std::size_t candidates_for(const InformationModel& model, std::size_t poses) {
+  const double numbers = std::max(20.0, static_cast<double>(model.ids().size()));
+  const double affordable = 1200.0 * std::pow(33.0 / numbers, 2.0) * 3.0 / model.rows_per_pose();
+  return std::max({static_cast<std::size_t>(std::clamp(affordable, 300.0, 1500.0)), 3 * poses});
 }
 
 }  // namespace demecal::inline planning

@@ -25,6 +25,10 @@ struct DrawnPoses {
 /// near those found. Every joint comes from a side drawn at random, and the arm can stand on that side of the pose.
 DrawnPoses draw_poses(const FeasibleSpace& space, std::size_t count, RandomStream random);
 
+/// How many candidates to choose so many poses from: the time that grows with them, times numbers squared, stays within
+/// seconds.
+std::size_t candidates_for(const InformationModel& model, std::size_t poses);
+
 /// The effects of these kinds that a measurement from both sides of every joint could show on this arm: of each kind
 /// and joint the plainest form that the arm's description allows.
 std::vector<Effect> effects_to_detect(const Robot& robot, const std::vector<Interval>& ranges,

@@ -160,4 +160,19 @@ RefinedPoses refined(const InformationModel& model, const FeasibleSpace& space, 
   return {std::move(poses), knowledge.covariance()};
 }
 
+RefinedPoses completed(const InformationModel& model, const std::vector<PlannedPose>& kept, std::size_t count,
+                       const std::vector<PlannedPose>& candidates, const Eigen::MatrixXd& known,
+                       const Eigen::MatrixXd& weight) {
+  std::vector<PlannedPose> all = kept;
+  all.insert(all.end(), candidates.begin(), candidates.end());
+  Design design(stacked_rows(model, all), model.rows_per_pose(), known, weight);
+  for (std::size_t i = 0; i < kept.size(); ++i) design.add(i);
+  for (std::size_t i = 0; i < count; ++i) design.add_best();
+  constexpr int kRounds = 4;
+  design.exchange(kRounds);
+  RefinedPoses chosen{{}, design.covariance()};
+  for (const std::size_t i : design.chosen()) chosen.poses.push_back(all[i]);
+  return chosen;
+}
+
 }  // namespace demecal::inline planning

@@ -73,6 +73,12 @@ struct RefinedPoses {
   Eigen::MatrixXd covariance;
 };
 
+/// `kept` and `count` of the candidates beside them, each the one that lowers the expected squared error most; then all
+/// are exchanged for better candidates as Design::exchange() does.
+RefinedPoses completed(const InformationModel& model, const std::vector<PlannedPose>& kept, std::size_t count,
+                       const std::vector<PlannedPose>& candidates, const Eigen::MatrixXd& known,
+                       const Eigen::MatrixXd& weight);
+
 /// `poses` after rounds in which each is replaced by the best of feasible poses near it, or with one joint anywhere
 /// (coordinate exchange after Meyer and Nachtsheim, 1995), where that lowers the expected squared error: the product of
 /// `weight` with the covariance. `known`: information already there. Never worse than what it begins with.

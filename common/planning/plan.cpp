@@ -26,26 +26,7 @@ namespace {
 
 constexpr int kUsualPoses = 40, kMostPoses = 400;
 constexpr std::size_t kWorkspacePlaces = 250;  ///< of the workspace that errors are predicted at
-constexpr int kExchangeRounds = 4;
-
-PlannedModel model_of(const PlanRequest& request, const FeasibleSpace& space) {
-  PlannedModel model;
-  model.by_touch = request.places.has_value();
-  model.nominal.robot = request.robot;
-  model.nominal.tools_m = request.tools_m;
-  model.declared = request.declared;
-  model.orientation = space.cell().instrument && space.cell().instrument->measures_orientation;
-  model.effects = effects_to_detect(request.robot, space.ranges(), request.detect, model.orientation);
-  model.noise_m = noise_of(request.robot, space.cell(), model.by_touch);
-  return model;
-}
-
-/// What grows with candidates times numbers squared stays within seconds.
-std::size_t candidates_for(const InformationModel& model, std::size_t poses) {
-  const double numbers = std::max(20.0, static_cast<double>(model.ids().size()));
-  const double affordable = 1200.0 * std::pow(33.0 / numbers, 2.0) * 3.0 / model.rows_per_pose();
-  return std::max({static_cast<std::size_t>(std::clamp(affordable, 300.0, 1500.0)), 3 * poses});
-}
+constexpr int kExchangeRounds = 4, kReplacements = 4;
 
 FeasibleSpace space_of(const PlanRequest& request) {
   WorkCell cell = request.cell     ? *request.cell
@@ -77,10 +58,12 @@ class Planning {
     const Design design = request_.accuracy_m ? smallest_reaching(empty) : of_size(empty, most_);
     RefinedPoses refined_poses = refined_design(design, known, workspace);
     if (request_.accuracy_m) use_fewer(empty, known, workspace, refined_poses);
+    Plan settled = with_stops(refined_poses.poses);
+    replace_blocked(settled, refined_poses, known, workspace);
+    plan_ = std::move(settled);
     take(refined_poses, workspace);
     bound(refined_poses.poses, known, workspace);
     draw_curve(empty, workspace, refined_poses.poses.size());
-    set_stops(refined_poses.poses);
     describe_assumptions(request_, space_, model_, plan_);
     return std::move(plan_);
   }
@@ -255,7 +238,7 @@ class Planning {
     }
   }
 
-  void set_stops(const std::vector<PlannedPose>& chosen) {
+  Plan with_stops(const std::vector<PlannedPose>& chosen) const {
     std::vector<PlannedStop> stops;
     for (const PlannedPose& pose : chosen) stops.push_back({{}, PoseSet::calibration, pose});
     const int calibration = static_cast<int>(stops.size());
@@ -270,7 +253,33 @@ class Planning {
       add_stops(places, validation, PoseSet::validation, stops);
       add_stops(places.subspan(validation), accept, PoseSet::accept, stops);
     }
-    order_stops(space_, request_.measured, std::move(stops), stream(3), plan_);
+    Plan plan = plan_;
+    order_stops(space_, request_.measured, std::move(stops), stream(3), plan);
+    return plan;
+  }
+
+  /// Others in the place of poses that no way leads to: of those that calibrate the candidates that tell most beside
+  /// the rest, where that costs little, of those that judge the next random ones; as far as more are reached so.
+  void replace_blocked(Plan& plan, RefinedPoses& calibration, const Eigen::MatrixXd& known,
+                       const Workspace& workspace) {
+    constexpr double kMostCost = 1.01;  // of the predicted error
+    const double enough_m = request_.accuracy_m.value_or(kMostCost * workspace.predicted(calibration.covariance).rms_m);
+    Plan tried = plan;
+    RefinedPoses others = calibration;
+    for (int round = 0; round < kReplacements && !tried.way.blocked.empty(); ++round) {
+      places_ = poses_but(std::move(places_), tried.stops, tried.way.blocked);
+      candidates_ = poses_but(std::move(candidates_), tried.stops, tried.way.blocked);
+      const std::vector<PlannedPose> kept = poses_but(others.poses, tried.stops, tried.way.blocked);
+      RefinedPoses next =
+          completed(model_, kept, others.poses.size() - kept.size(), candidates_, known, workspace.weight());
+      next = refined(model_, space_, std::move(next.poses), known, workspace.weight(),
+                     stream(7 + static_cast<std::uint64_t>(round)));
+      if (workspace.predicted(next.covariance).rms_m <= enough_m) others = std::move(next);
+      tried = with_stops(others.poses);
+      if (tried.way.blocked.size() >= plan.way.blocked.size()) continue;
+      plan = tried;
+      calibration = others;
+    }
   }
 
   const PlanRequest& request_;

@@ -83,6 +83,14 @@ int judging(const PlanRequest& request, PoseSet set, int calibration) {
   return std::max(0, usual - measured_before(request.measured, set));
 }
 
+std::vector<PlannedPose> poses_but(std::vector<PlannedPose> poses, const std::vector<PlannedStop>& stops,
+                                   const std::vector<std::size_t>& but) {
+  std::erase_if(poses, [&](const PlannedPose& pose) {
+    return std::ranges::any_of(but, [&](std::size_t i) { return stops[i].pose.joints == pose.joints; });
+  });
+  return poses;
+}
+
 void add_stops(std::span<const PlannedPose> from, std::size_t count, PoseSet set, std::vector<PlannedStop>& stops) {
   for (const PlannedPose& pose : from.first(std::min(count, from.size()))) stops.push_back({{}, set, pose});
 }

@@ -20,6 +20,10 @@ int judging(const PlanRequest& request, PoseSet set, int calibration);
 /// As many where sockets are touched: of a contact that few poses touch nobody knows how well they agree.
 std::size_t at_sockets(const std::optional<int>& asked, std::size_t usual, std::size_t sockets);
 
+/// Those of `poses` that are not the poses of these stops.
+std::vector<PlannedPose> poses_but(std::vector<PlannedPose> poses, const std::vector<PlannedStop>& stops,
+                                   const std::vector<std::size_t>& but);
+
 void add_stops(std::span<const PlannedPose> from, std::size_t count, PoseSet set, std::vector<PlannedStop>& stops);
 
 /// Fills in the stops in the order of measuring, their ids (from "P1", or behind those measured before) and counts and,
