@@ -96,20 +96,20 @@ ContactPlace place_by_least_squares(const ContactForm& form, const Touches& touc
   return place;
 }
 
-double middle_of(std::vector<double> values) {
+double middle_value(std::vector<double> values) {
   const auto middle = values.begin() + std::ssize(values) / 2;
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
 
-std::vector<double> distances_m(const ContactPlace& place, const Touches& touches) {
+std::vector<double> off_place_m(const ContactPlace& place, const Touches& touches) {
   std::vector<double> all;
   for (const Touch& touch : touches) all.push_back(contact_residual(place, touch).norm());
   return all;
 }
 
 /// The touches that lie no farther off than `most_m`.
-Touches nearest(const Touches& touches, const std::vector<double>& off_m, double most_m) {
+Touches touches_within(const Touches& touches, const std::vector<double>& off_m, double most_m) {
   Touches near;
   for (std::size_t i = 0; i < touches.size(); ++i)
     if (off_m[i] <= most_m) near.push_back(touches[i]);
@@ -125,8 +125,8 @@ ContactPlace place_of_most(const ContactForm& form, const Touches& touches, std:
   for (int turn = 0; turn < kMostTurns; ++turn) {
     std::vector<double> ordered = off_m;
     std::nth_element(ordered.begin(), ordered.begin() + last, ordered.end());
-    place = place_by_least_squares(form, nearest(touches, off_m, ordered[static_cast<std::size_t>(last)]));
-    std::vector<double> next_m = distances_m(place, touches);
+    place = place_by_least_squares(form, touches_within(touches, off_m, ordered[static_cast<std::size_t>(last)]));
+    std::vector<double> next_m = off_place_m(place, touches);
     if (next_m == off_m) break;
     off_m = std::move(next_m);
   }
@@ -139,7 +139,7 @@ std::vector<double> from_middle_m(const Touches& touches) {
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> along;
     for (const Touch& touch : touches) along.push_back(touch.point_m[axis]);
-    middle[axis] = middle_of(std::move(along));
+    middle[axis] = middle_value(std::move(along));
   }
   std::vector<double> all;
   for (const Touch& touch : touches) all.push_back((touch.point_m - middle).norm());
@@ -222,14 +222,14 @@ ContactPlace contact_place(const ContactForm& form, const Touches& touches) {
   const auto are_few_fewer = [&](const Touches& near) {
     return near.size() < touches.size() && 4 * near.size() >= 3 * touches.size();
   };
-  const std::vector<double> of_all_m = distances_m(of_all, touches), away_m = from_middle_m(touches);
+  const std::vector<double> of_all_m = off_place_m(of_all, touches), away_m = from_middle_m(touches);
   for (const std::vector<double>& start_m : {away_m, of_all_m}) {
-    const std::vector<double> off_m = distances_m(place_of_most(form, touches, start_m), touches);
-    const double most_m = middle_of(off_m);
-    const Touches near = nearest(touches, off_m, kOffMost * most_m);
-    if (most_m < middle_of(of_all_m) && are_few_fewer(near)) return place_by_least_squares(form, near);
+    const std::vector<double> off_m = off_place_m(place_of_most(form, touches, start_m), touches);
+    const double most_m = middle_value(off_m);
+    const Touches near = touches_within(touches, off_m, kOffMost * most_m);
+    if (most_m < middle_value(of_all_m) && are_few_fewer(near)) return place_by_least_squares(form, near);
   }
-  const Touches near = nearest(touches, away_m, kOffMiddle * middle_of(away_m));
+  const Touches near = touches_within(touches, away_m, kOffMiddle * middle_value(away_m));
   return form.kind == ContactKind::sphere && are_few_fewer(near) ? place_by_least_squares(form, near) : of_all;
 }
 
