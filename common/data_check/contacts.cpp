@@ -202,6 +202,8 @@ std::vector<Finding> check_contacts(const DataSet& all) {
   if (const std::optional<CorrectedRobot> stiff = stiff_arm(data)) {
     if (auto computed = find_computed_contacts(data, *stiff)) return {std::move(*computed)};
     const double apart_m = median_tool_error_m(data, *stiff);
+    if (most_apart_m(data, *stiff) > kNoContact_m)
+      if (auto exchanged = find_exchanged_contacts(data)) return {std::move(*exchanged)};
     std::vector<Finding> kinds = find_wrong_kinds(data);
     if (apart_m < kApart_m && !kinds.empty()) return kinds;  // where most agree joints are read as they are meant
     if (most_apart_m(data, *stiff) > kApart_m)
