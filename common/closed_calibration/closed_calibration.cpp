@@ -9,6 +9,7 @@
 #include "calibration/training.hpp"
 #include "closed_calibration/closing.hpp"
 #include "closed_calibration/loop_passes.hpp"
+#include "closed_calibration/one_place.hpp"
 #include "diagnosis/candidates.hpp"
 #include "distal/learning.hpp"
 #include "distal/steps.hpp"
@@ -113,6 +114,7 @@ LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolv
     return evolver_.search_explanations(problem, search);
   };
   LoopResult found = close_loop(data_, job_.declared, loop_start_from(robot), options, watched);
+  take_back_unjudged(data_, found);
   stopped_ = stopped_ || evolver_.is_interrupted();
   drop_negligible_terms(found.before);
   drop_negligible_terms(found.model);

@@ -16,6 +16,7 @@
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -142,6 +143,47 @@ std::optional<Finding> scattered_contact(const DataSet& data, const CorrectedRob
   return std::nullopt;
 }
 
+/// The far touches of a ball, by `robot`: at most one in four of many that lie ten times as far from the middle of most
+/// as the middle touch does, which no ball is long enough for, or twenty times as far off the sphere.
+std::vector<std::size_t> far_touches(const TouchedContacts& touched, const ContactGroup& group,
+                                     const CorrectedRobot& robot) {
+  constexpr std::size_t kMany = 12, kFewOf = 4;
+  constexpr double kOffMiddle = 10.0, kOffSphere = 20.0;
+  const std::vector<std::size_t>& poses = touched.groups().at(group);
+  if (touched.kind_of(group) != ContactKind::sphere || poses.size() < kMany) return {};
+  const DataSet& data = touched.data();
+  if (std::ranges::any_of(poses, [&](std::size_t pose) { return data.poses[pose].contact_length_m > 0.0; })) return {};
+  const ContactPlace place = touched.place(group);
+  Eigen::Vector3d middle_m;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> along_m;
+    for (const std::size_t pose : poses) along_m.push_back(touch_of(robot, data.poses[pose]).point_m[axis]);
+    middle_m[axis] = median(std::move(along_m));
+  }
+  std::vector<double> away_m, off_m;
+  for (const std::size_t pose : poses) {
+    away_m.push_back((touch_of(robot, data.poses[pose]).point_m - middle_m).norm());
+    off_m.push_back(touched.distance_m(place, pose));
+  }
+  const double most_away_m = kOffMiddle * median(away_m), most_off_m = kOffSphere * median(off_m);
+  std::vector<std::size_t> far;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (away_m[i] > most_away_m || off_m[i] > most_off_m) far.push_back(poses[i]);
+  return kFewOf * far.size() <= poses.size() ? far : std::vector<std::size_t>{};
+}
+
+/// The data without touches that are as far from their ball as another one is: they would bend the arm by which they
+/// and all others are judged.
+DataSet without_far_touches(DataSet data) {
+  const CorrectedRobot robot = nominal_robot(data);
+  const TouchedContacts touched(data, robot, {});
+  std::set<std::string> far;
+  for (const auto& [group, poses] : touched.groups())
+    for (const std::size_t pose : far_touches(touched, group, robot)) far.insert(data.poses[pose].pose_id);
+  std::erase_if(data.poses, [&](const MeasuredPose& pose) { return far.contains(pose.pose_id); });
+  return data;
+}
+
 }  // namespace
 
 std::optional<CorrectedRobot> stiff_arm(const DataSet& data) {
@@ -154,11 +196,14 @@ std::optional<CorrectedRobot> stiff_arm(const DataSet& data) {
   return fit.robot;
 }
 
-std::vector<Finding> check_contacts(const DataSet& data) {
-  if (!has_contacts(data)) return {};
+std::vector<Finding> check_contacts(const DataSet& all) {
+  if (!has_contacts(all)) return {};
+  const DataSet data = without_far_touches(all);
   if (const std::optional<CorrectedRobot> stiff = stiff_arm(data)) {
     if (auto computed = find_computed_contacts(data, *stiff)) return {std::move(*computed)};
     const double apart_m = median_tool_error_m(data, *stiff);
+    if (most_apart_m(data, *stiff) > kNoContact_m)
+      if (auto exchanged = find_exchanged_contacts(data)) return {std::move(*exchanged)};
     std::vector<Finding> kinds = find_wrong_kinds(data);
     if (apart_m < kApart_m && !kinds.empty()) return kinds;  // where most agree joints are read as they are meant
     if (most_apart_m(data, *stiff) > kApart_m)
@@ -177,7 +222,7 @@ std::vector<Finding> check_contacts(const DataSet& data) {
   if (!fit) return radii;
   const double left_m = median_tool_error_m(data, fit->robot);
   if (left_m > kImplausible_m) return {of_other_robot(left_m)};
-  std::vector<Finding> found = find_wrong_contacts(data, fit->robot);
+  std::vector<Finding> found = find_wrong_contacts(all, fit->robot);
   if (auto scattered = scattered_contact(data, fit->robot, found)) return {std::move(*scattered)};
   std::ranges::move(radii, std::back_inserter(found));
   return found;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -116,15 +117,19 @@ std::optional<Step> slip_of(const Points& points, const std::vector<std::vector<
 
 }  // namespace
 
-std::vector<MovedContact> find_moved_contacts(const DataSet& data, const CorrectedRobot& robot) {
+std::vector<MovedContact> find_moved_contacts(const DataSet& data, const CorrectedRobot& robot,
+                                              const std::set<std::size_t>& elsewhere) {
   std::vector<MovedContact> found;
   for (const auto& [group, members] : contact_groups(data)) {
     if (data.contacts.form_of(group.contact).kind != ContactKind::point) continue;
+    std::vector<std::size_t> there;
+    for (const std::size_t pose : members)
+      if (!elsewhere.contains(pose)) there.push_back(pose);
     Points points;
-    for (const std::size_t pose : members) points.push_back(touch_of(robot, data.poses[pose]).point_m);
-    const std::optional<Step> slip = slip_of(points, conditions_of(data, members));
+    for (const std::size_t pose : there) points.push_back(touch_of(robot, data.poses[pose]).point_m);
+    const std::optional<Step> slip = slip_of(points, conditions_of(data, there));
     if (!slip) continue;
-    const auto first = members.begin() + static_cast<std::ptrdiff_t>(slip->first);
+    const auto first = std::ranges::find(members, there[slip->first]);
     found.push_back({group, {first, members.end()}, slip->shift_m});
   }
   return found;

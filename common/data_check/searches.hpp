@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -157,6 +158,10 @@ std::optional<CorrectedRobot> stiff_arm(const DataSet& data);
 /// line instead, while other contacts agree.
 std::vector<Finding> find_wrong_kinds(const DataSet& data);
 
+/// Two points whose names are exchanged from a row on: with the names the other way round from there the calibration
+/// poses of both agree far better.
+std::optional<Finding> find_exchanged_contacts(const DataSet& data);
+
 /// Known lengths that are not those of this arm's contacts by far, in another unit or by another factor, or in one set
 /// alone, whose contacts are then exchanged. `robot` predicts the tool, by lengths of its own, and leaves poses of one
 /// contact `apart_m` from their middle.
@@ -175,8 +180,9 @@ struct MovedContact {
   double shift_m = 0.0;
 };
 
-/// `robot` predicts the tool.
-std::vector<MovedContact> find_moved_contacts(const DataSet& data, const CorrectedRobot& robot);
+/// `robot` predicts the tool. Poses `elsewhere` touched another contact than they name, and tell nothing of theirs.
+std::vector<MovedContact> find_moved_contacts(const DataSet& data, const CorrectedRobot& robot,
+                                              const std::set<std::size_t>& elsewhere);
 
 Finding of_moved_contact(const DataSet& data, const MovedContact& moved);
 

@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,6 +25,8 @@ namespace {
 constexpr double kFar = 8.0;          ///< deviations beyond which no noise goes
 constexpr double kLeast_m = 3e-4;     ///< what a ball's play may be
 constexpr double kLeastShown = 0.05;  ///< share of a squared error that has to show for the pose to be judged
+
+constexpr std::string_view kOnceMoved = "\n";  ///< behind the name, which has no such end, of where a contact moved to
 
 constexpr double kMedianVariance = 1.5;  ///< of a median of few, over that of one of them times their number
 
@@ -57,10 +61,17 @@ TouchedContacts::TouchedContacts(const DataSet& data, const CorrectedRobot& robo
   for (const MovedContact& one : moved) {
     std::vector<std::size_t>& before = groups_.at(one.group);
     before.resize(before.size() - one.from_there.size());
-    groups_[{one.group.contact + " once moved", one.group.set}] = one.from_there;
+    groups_[{one.group.contact + std::string(kOnceMoved), one.group.set}] = one.from_there;
   }
   for (const MeasuredPose& pose : data.poses)
     touches_.push_back(pose.contact.empty() ? Touch{Eigen::Vector3d::Zero()} : touch_of(robot, pose));
+}
+
+std::string TouchedContacts::name_of(const ContactGroup& group) {
+  std::string name = group.contact;
+  if (!name.ends_with(kOnceMoved)) return "'" + name + "'";
+  name.resize(name.size() - kOnceMoved.size());
+  return "'" + name + "' where it stands after it moved";
 }
 
 std::vector<std::size_t> TouchedContacts::kept(const ContactGroup& group, std::optional<std::size_t> without) const {

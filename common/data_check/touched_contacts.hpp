@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -27,6 +28,9 @@ class TouchedContacts {
   const Groups& groups() const { return groups_; }
   const DataSet& data() const { return data_; }
   ContactKind kind_of(const ContactGroup& group) const { return data_.contacts.form_of(group.contact).kind; }
+
+  /// The contact as sentences name it.
+  static std::string name_of(const ContactGroup& group);
 
   void leave_out(std::size_t pose) { left_out_.insert(pose); }
   /// Those of the group that are not left out, `without` neither.

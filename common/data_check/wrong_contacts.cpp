@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <ranges>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -71,6 +72,16 @@ class ContactSearch {
     return all;
   }
 
+  /// The poses at another contact than they name.
+  std::set<std::size_t> wrong_poses() {
+    std::set<std::size_t> poses;
+    while (const std::optional<WrongPose> wrong = worst_at_another()) {
+      poses.insert(wrong->pose);
+      touched_.leave_out(wrong->pose);
+    }
+    return poses;
+  }
+
   /// Without the poses that were found to be wrong.
   const TouchedContacts& touched() const { return touched_; }
 
@@ -94,7 +105,7 @@ class ContactSearch {
           const double elsewhere_m = touched_.distance_m(touched_.place(other), poses[i]);
           if (!touches_instead(other, error_m, elsewhere_m)) continue;
           if (!worst || error_m - elsewhere_m > worst->error_m - worst->elsewhere_m)
-            worst = WrongPose{poses[i], other.contact, error_m, elsewhere_m};
+            worst = WrongPose{poses[i], TouchedContacts::name_of(other), error_m, elsewhere_m};
         }
       }
     }
@@ -157,7 +168,7 @@ class ContactSearch {
       if (other.contact == group.contact || others.size() < 2) continue;
       if (touched_.kind_of(other) != ContactKind::point) continue;
       const double away_m = touched_.distance_m(touched_.place(other), lone.pose);
-      if (away_m < lone.away_m) lone = {lone.pose, other.contact, away_m};
+      if (away_m < lone.away_m) lone = {lone.pose, TouchedContacts::name_of(other), away_m};
     }
     return lone;
   }
@@ -190,7 +201,7 @@ class ContactSearch {
             .poses = {pose.pose_id},
             .if_changed_mm = millimetres(lone.away_m),
             .sentence = fmt::format("Line {}{} alone of the {} poses touches '{}': nothing can be told of it. Nearest "
-                                    "is '{}', {} away: correct the name, or exclude the pose.",
+                                    "is {}, {} away: correct the name, or exclude the pose.",
                                     pose.line, name_beside_line(pose), to_string(pose.set), pose.contact, lone.nearest,
                                     distance_text(lone.away_m))};
   }
@@ -214,8 +225,8 @@ class ContactSearch {
             .poses = {pose.pose_id},
             .as_given_mm = millimetres(wrong.error_m),
             .if_changed_mm = millimetres(wrong.elsewhere_m),
-            .sentence = fmt::format("Line {}{} names contact '{}', but lies {} from it and {} from '{}': most likely "
-                                    "it touched '{}'. Correct the name, or exclude the pose.",
+            .sentence = fmt::format("Line {}{} names contact '{}', but lies {} from it and {} from {}: most likely "
+                                    "it touched {}. Correct the name, or exclude the pose.",
                                     pose.line, name_beside_line(pose), pose.contact, distance_text(wrong.error_m),
                                     distance_text(wrong.elsewhere_m), wrong.fits, wrong.fits)};
   }
@@ -259,7 +270,8 @@ class ContactSearch {
 
 std::vector<Finding> find_wrong_contacts(const DataSet& data, const CorrectedRobot& robot) {
   if (!has_contacts(data)) return {};
-  const std::vector<MovedContact> moved = find_moved_contacts(data, robot);
+  const std::set<std::size_t> wrong = ContactSearch(TouchedContacts(data, robot, {})).wrong_poses();
+  const std::vector<MovedContact> moved = find_moved_contacts(data, robot, wrong);
   ContactSearch search(TouchedContacts(data, robot, moved));
   std::vector<Finding> found = search.findings();
   for (const MovedContact& one : moved) found.push_back(of_moved_contact(data, one));

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "decompositions/decompositions.hpp"
 #include "errors/check.hpp"
@@ -36,6 +38,10 @@ Eigen::Matrix3d frame_along(const Eigen::Vector3d& direction) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), direction).toRotationMatrix();
 }
 
+bool is_of_wire(const Touches& touches) {
+  return std::ranges::any_of(touches, [](const Touch& touch) { return touch.length_m > 0.0; });
+}
+
 /// Centre and radius of the sphere through points, linear in x^2 - l^2 = 2 c x + (r^2 - c^2), l a wire's length, whose
 /// zero is taken to be right; few points give the smallest.
 void fit_sphere(const Touches& touches, ContactPlace& place) {
@@ -50,8 +56,7 @@ void fit_sphere(const Touches& touches, ContactPlace& place) {
   }
   const Eigen::Vector4d found = least_norm_solution(rows, squares);
   place.frame.translation() = middle + found.head<3>();
-  const bool of_wire = std::ranges::any_of(touches, [](const Touch& touch) { return touch.length_m > 0.0; });
-  if (!place.is_radius_known && !of_wire)
+  if (!place.is_radius_known && !is_of_wire(touches))
     place.radius_m = std::sqrt(std::max(found[3] + found.head<3>().squaredNorm(), 0.0));
 }
 
@@ -73,6 +78,72 @@ void refine_sphere(const Touches& touches, ContactPlace& place) {
     place.frame.translation() += change.head<3>();
     if (!place.is_radius_known) place.radius_m += change[3];
   }
+}
+
+ContactPlace place_by_least_squares(const ContactForm& form, const Touches& touches) {
+  constexpr double kShortest_m = 1e-9;
+  ContactPlace place{form.kind, Eigen::Isometry3d::Identity(), form.radius_m.value_or(0.0), form.radius_m.has_value()};
+  const Eigen::Vector3d middle = mean_point(touches);
+  place.frame.translation() = middle;
+  if (form.kind == ContactKind::plane || form.kind == ContactKind::line) {
+    const Eigen::Vector3d axis = principal_axes(touches, middle).col(form.kind == ContactKind::plane ? 0 : 2);
+    if (axis.norm() > kShortest_m) place.frame.linear() = frame_along(axis);
+  }
+  if (form.kind == ContactKind::sphere) {
+    fit_sphere(touches, place);
+    refine_sphere(touches, place);
+  }
+  return place;
+}
+
+double middle_value(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+std::vector<double> off_place_m(const ContactPlace& place, const Touches& touches) {
+  std::vector<double> all;
+  for (const Touch& touch : touches) all.push_back(contact_residual(place, touch).norm());
+  return all;
+}
+
+/// The touches that lie no farther off than `most_m`.
+Touches touches_within(const Touches& touches, const std::vector<double>& off_m, double most_m) {
+  Touches near;
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (off_m[i] <= most_m) near.push_back(touches[i]);
+  return near;
+}
+
+/// The place of three quarters of the touches: those that lie `off_m` least, then those that are nearest to their own
+/// place, in turn (least trimmed squares).
+ContactPlace place_of_most(const ContactForm& form, const Touches& touches, std::vector<double> off_m) {
+  constexpr int kMostTurns = 10;
+  const std::ptrdiff_t last = 3 * std::ssize(touches) / 4;
+  ContactPlace place;
+  for (int turn = 0; turn < kMostTurns; ++turn) {
+    std::vector<double> ordered = off_m;
+    std::nth_element(ordered.begin(), ordered.begin() + last, ordered.end());
+    place = place_by_least_squares(form, touches_within(touches, off_m, ordered[static_cast<std::size_t>(last)]));
+    std::vector<double> next_m = off_place_m(place, touches);
+    if (next_m == off_m) break;
+    off_m = std::move(next_m);
+  }
+  return place;
+}
+
+/// How far touches are from the middle of most of them, which few that touched something else cannot move.
+std::vector<double> from_middle_m(const Touches& touches) {
+  Eigen::Vector3d middle;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> along;
+    for (const Touch& touch : touches) along.push_back(touch.point_m[axis]);
+    middle[axis] = middle_value(std::move(along));
+  }
+  std::vector<double> all;
+  for (const Touch& touch : touches) all.push_back((touch.point_m - middle).norm());
+  return all;
 }
 
 }  // namespace
@@ -143,19 +214,23 @@ Eigen::Vector3d turn_axis(const ContactPlace& place, int motion, const Eigen::Ve
 }
 
 ContactPlace contact_place(const ContactForm& form, const Touches& touches) {
-  constexpr double kShortest_m = 1e-9;
-  ContactPlace place{form.kind, Eigen::Isometry3d::Identity(), form.radius_m.value_or(0.0), form.radius_m.has_value()};
-  const Eigen::Vector3d middle = mean_point(touches);
-  place.frame.translation() = middle;
-  if (form.kind == ContactKind::plane || form.kind == ContactKind::line) {
-    const Eigen::Vector3d axis = principal_axes(touches, middle).col(form.kind == ContactKind::plane ? 0 : 2);
-    if (axis.norm() > kShortest_m) place.frame.linear() = frame_along(axis);
+  constexpr std::size_t kMany = 12;
+  constexpr double kOffMost = 20.0;    // times what the middle touch is off the place of most: no noise goes so far
+  constexpr double kOffMiddle = 10.0;  // times as far from the middle of most as the middle touch: no ball is so long
+  const ContactPlace of_all = place_by_least_squares(form, touches);
+  if (form.kind == ContactKind::point || touches.size() < kMany || is_of_wire(touches)) return of_all;
+  const auto are_few_fewer = [&](const Touches& near) {
+    return near.size() < touches.size() && 4 * near.size() >= 3 * touches.size();
+  };
+  const std::vector<double> of_all_m = off_place_m(of_all, touches), away_m = from_middle_m(touches);
+  for (const std::vector<double>& start_m : {away_m, of_all_m}) {
+    const std::vector<double> off_m = off_place_m(place_of_most(form, touches, start_m), touches);
+    const double most_m = middle_value(off_m);
+    const Touches near = touches_within(touches, off_m, kOffMost * most_m);
+    if (most_m < middle_value(of_all_m) && are_few_fewer(near)) return place_by_least_squares(form, near);
   }
-  if (form.kind == ContactKind::sphere) {
-    fit_sphere(touches, place);
-    refine_sphere(touches, place);
-  }
-  return place;
+  const Touches near = touches_within(touches, away_m, kOffMiddle * middle_value(away_m));
+  return form.kind == ContactKind::sphere && are_few_fewer(near) ? place_by_least_squares(form, near) : of_all;
 }
 
 }  // namespace demecal::inline prediction

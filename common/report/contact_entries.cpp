@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "closed_calibration/one_place.hpp"
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data/stated_radius.hpp"
@@ -40,33 +41,15 @@ std::size_t fitted_lengths(const DataSet& data) {
   }));
 }
 
-/// Where calibration poses touch something, by the model: planes and lines wherever they are touched.
-std::vector<Eigen::Vector3d> touched_places_m(const DataSet& data, const CorrectedRobot& robot) {
-  const CorrectedRobot placed = with_own_contacts(robot, data);
-  std::vector<Eigen::Vector3d> places_m;
-  for (const auto& [group, poses] : contact_groups(data, poses_of(data, PoseSet::calibration))) {
-    const ContactPlace& place = placed.contacts.at(group);
-    if (place.kind != ContactKind::plane && place.kind != ContactKind::line)
-      places_m.push_back(place.frame.translation());
-    else
-      for (const std::size_t pose : poses) places_m.push_back(touch_of(robot, data.poses[pose]).point_m);
-  }
-  return places_m;
-}
-
 /// What calibration at one place cannot see; empty where there are several.
 std::string one_place_sentence(const DataSet& data, const CorrectedRobot& robot) {
-  constexpr double kOnePlace_m = 0.2;
   if (contact_groups(data, poses_of(data, PoseSet::calibration)).size() == 1) return one_contact_sentence();
-  const std::vector<Eigen::Vector3d> places_m = touched_places_m(data, robot);
-  double apart_m = 0.0;
-  for (const Eigen::Vector3d& one_m : places_m)
-    for (const Eigen::Vector3d& other_m : places_m) apart_m = std::max(apart_m, (one_m - other_m).norm());
-  if (places_m.empty() || apart_m > kOnePlace_m) return {};
+  const std::optional<double> apart_m = one_place_m(data, robot);
+  if (!apart_m) return {};
   return fmt::format(
       "All contacts that calibration poses touch lie within {:.0f} mm: links and effects were found and judged at one "
       "place, and may be wrong by much more elsewhere. A second place, some 300 mm away, would show it.",
-      millimetres(apart_m));
+      millimetres(*apart_m));
 }
 
 /// Wires whose lengths the calibration poses find too long or too short; empty where none is by far.
@@ -174,15 +157,36 @@ std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRo
   return entries;
 }
 
+std::string second_place_sentence(const DataSet& data, const CalibratedModel& model,
+                                  const std::vector<std::size_t>& poses) {
+  constexpr std::size_t kMost = 4;
+  if (touches_one_contact_alone(data) || !one_place_m(data, model.robot)) return {};
+  const std::optional<SecondPlace> second = second_place(data, model, poses);
+  if (!second) return {};
+  Eigen::Index axis = 0;
+  second->away_m.cwiseAbs().maxCoeff(&axis);
+  std::vector<std::string> links;
+  for (std::size_t i = 0; i < std::min(kMost, second->links.size()); ++i) links.push_back(second->links[i].name());
+  const std::string most =
+      links.empty() ? "" : fmt::format(", since this place hardly shows {}", fmt::join(links, ", "));
+  return fmt::format(
+      " With as many poses at the same contacts {:.0f} mm away along the base's {}{} the error predicted over the "
+      "workspace would be {:.2f} mm (rms) in place of {:.2f} mm{}.",
+      millimetres(second->away_m.norm()), second->away_m[axis] > 0.0 ? '+' : '-', "xyz"[axis],
+      millimetres(second->both_m), millimetres(second->one_place_m), most);
+}
+
 std::vector<std::string> contact_notes(const DataSet& data, const CorrectedRobot& robot,
                                        const std::vector<LengthErrorEntry>& lengths,
-                                       const std::vector<std::string>& fitted_sets) {
+                                       const std::vector<std::string>& fitted_sets, const std::string& second_place) {
   if (!has_contacts(data)) return {};
   std::vector<std::string> notes;
   if (std::string sentence = unfitted_lengths_sentence(lengths, fitted_sets); !sentence.empty())
     notes.push_back(std::move(sentence));
   if (!has_instrument(data)) {
-    if (std::string sentence = one_place_sentence(data, robot); !sentence.empty()) notes.push_back(std::move(sentence));
+    if (std::string sentence = one_place_sentence(data, robot); !sentence.empty()) {
+      notes.push_back(sentence + second_place);
+    }
     if (std::string sentence = wire_zeros_sentence(data, robot); !sentence.empty())
       notes.push_back(std::move(sentence));
     if (fitted_lengths(data) == 0 && !shows_lengths(data))

@@ -66,10 +66,16 @@ std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRo
                                           const CorrectedRobot& before, const CorrectedRobot& after);
 
 /// What these contacts can tell of the arm and what they cannot, the most important first; empty where nothing is
-/// touched. `robot`: the model, which has the contacts where its own poses do.
+/// touched. `robot`: the model, which has the contacts where its own poses do. `second_place` says what one would add.
 std::vector<std::string> contact_notes(const DataSet& data, const CorrectedRobot& robot,
                                        const std::vector<LengthErrorEntry>& lengths,
-                                       const std::vector<std::string>& fitted_sets);
+                                       const std::vector<std::string>& fitted_sets,
+                                       const std::string& second_place = {});
+
+/// What as many poses at a second place would add, in mm over the workspace, and to which links most; empty where there
+/// are several places, or one contact alone, which gives no figures. `poses` are those that the model was fitted to.
+std::string second_place_sentence(const DataSet& data, const CalibratedModel& model,
+                                  const std::vector<std::size_t>& poses);
 
 /// Where the radii of poses come from.
 PredictionEntry prediction_entry(const PredictionInterval& interval);

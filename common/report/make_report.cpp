@@ -13,6 +13,7 @@
 #include "calibration/joint_targets.hpp"
 #include "calibration/shared_functions.hpp"
 #include "calibration/training.hpp"
+#include "diagnosis/loop.hpp"
 #include "expression/bound.hpp"
 #include "expression/shared_function.hpp"
 #include "expression/text.hpp"
@@ -231,7 +232,10 @@ Report make_report(const Conclusions& run) {
   if (!data.poses.empty()) report.arm = arm_entry(model.robot, data.poses.front().target);
   report.contacts = contact_entries(data, run.preparation.registered.robot, run.before, model.robot);
   report.length_errors = length_error_entries(data, model.robot, &run.before);
-  report.contact_notes = contact_notes(data, model.robot, report.length_errors, report.fitted_sets);
+  const std::vector<std::size_t> fitted =
+      run.calibration.unseen ? poses_of_last_fit(data) : poses_of(data, PoseSet::calibration);
+  report.contact_notes = contact_notes(data, model.robot, report.length_errors, report.fitted_sets,
+                                       second_place_sentence(data, model, fitted));
   if (model.interval) report.prediction_interval = prediction_entry(*model.interval);
   report.workspace_error = without_figures_of_one_contact(workspace_entry(model, has_instrument(data)), data);
   report.noise_floor_mm = noise_floor_mm(data);

@@ -20,6 +20,7 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "closed_calibration/closing.hpp"
 #include "closed_calibration/loop_passes.hpp"
+#include "closed_calibration/one_place.hpp"
 #include "data/data_set.hpp"
 #include "diagnosis/loop.hpp"
 #include "diagnosis/outcome.hpp"
@@ -135,6 +136,7 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   LoopOptions options = loop_options(job, declared.robot.effects.size());
   options.search_explanations = search;
   LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot), options, watched);
+  take_back_unjudged(data, found);
   drop_negligible_terms(found.before);
   drop_negligible_terms(found.model);
   LoopModels ends{std::move(found.before), std::move(found.model)};

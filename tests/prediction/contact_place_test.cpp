@@ -202,5 +202,20 @@ TEST(OnlyPlaced, PosesCountInNoFigure) {
   EXPECT_FALSE(only_placed(data).contains({"plate", PoseSet::calibration}));
 }
 
+TEST(ContactPlace, OfABallIsWhereMostTouchesHaveIt) {
+  RandomStream stream{9109};
+  for (int trial = 0; trial < 20; ++trial) {
+    const ContactPlace place = random_place(stream, ContactKind::sphere);
+    std::vector<Touch> touches;
+    for (int i = 0; i < 20; ++i) touches.push_back({touching(stream, place) + random_point(stream, 3e-5)});
+    const ContactPlace without = contact_place({ContactKind::sphere, {}}, touches);
+    touches[7].point_m += Eigen::Vector3d(0.3, -0.2, 0.1);
+    touches[11].point_m += Eigen::Vector3d(0.3, -0.2, 0.1);
+    const ContactPlace found = contact_place({ContactKind::sphere, {}}, touches);
+    EXPECT_LT((found.frame.translation() - without.frame.translation()).norm(), 5e-5);
+    EXPECT_NEAR(found.radius_m, without.radius_m, 5e-5);
+  }
+}
+
 }  // namespace
 }  // namespace demecal
