@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -144,12 +143,6 @@ std::vector<std::vector<double>> unit_motion_sizes(const CorrectedRobot& robot, 
 
 }  // namespace
 
-std::string_view to_string(BeliefPart part) {
-  constexpr std::array<std::string_view, kBeliefParts> kWords{"links", "effects", "joints outside the known range",
-                                                              "joints within it"};
-  return kWords[static_cast<std::size_t>(part)];
-}
-
 PriorModel::PriorModel(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
                        std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift)
     : robot_(placed),
@@ -260,26 +253,28 @@ Eigen::MatrixXd PriorModel::fixed_covariance() const {
   return covariance;
 }
 
-Eigen::MatrixXd PriorModel::covariance_of(BeliefPart part) const {
+Eigen::MatrixXd PriorModel::covariance_of(BeliefPart part, int joint) const {
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(numbers(), numbers());
-  const auto n = static_cast<Eigen::Index>(ids_.size());
-  if (part == BeliefPart::links) covariance.diagonal().head(n) = link_drift_;
-  if (part == BeliefPart::effects) covariance.diagonal().head(n) = effect_drift_;
-  if (part == BeliefPart::ripple) covariance.diagonal().tail(ripple_.size()) = ripple_;
-  if (part == BeliefPart::outside) {
-    Eigen::Index first = n;
-    for (const Eigen::MatrixXd& joint : outside_) {
-      covariance.block(first, first, joint.rows(), joint.cols()) = joint;
-      first += joint.rows();
-    }
-  }
+  Eigen::Index first = std::ssize(ids_);
+  if (part == BeliefPart::links) covariance.diagonal().head(first) = link_drift_;
+  if (part == BeliefPart::effects) covariance.diagonal().head(first) = effect_drift_;
+  if (!of_waves(part)) return covariance;
+  for (int before = 0; before < joint; ++before) first += outside_[static_cast<std::size_t>(before)].rows();
+  const Eigen::MatrixXd& outside = outside_[static_cast<std::size_t>(joint)];
+  auto block = covariance.block(first, first, outside.rows(), outside.cols());
+  if (part == BeliefPart::outside) block = outside;
+  if (part == BeliefPart::ripple) block.diagonal() = ripple_.segment(first - std::ssize(ids_), outside.rows());
   return covariance;
 }
 
-Eigen::MatrixXd PriorModel::covariance(const PartFactors& factors) const {
+Eigen::MatrixXd PriorModel::covariance(const PartFactors& factors, const Eigen::VectorXd& of_joint) const {
   Eigen::MatrixXd covariance = fixed_covariance();
-  for (std::size_t part = 0; part < kBeliefParts; ++part)
-    covariance += factors[part] * covariance_of(static_cast<BeliefPart>(part));
+  for (const BeliefPart part : kAllBeliefParts) {
+    const double factor = factors[static_cast<std::size_t>(part)];
+    if (!of_waves(part)) covariance += factor * covariance_of(part);
+    for (int joint = 0; of_waves(part) && joint < joints(); ++joint)
+      covariance += factor * of_joint[joint] * covariance_of(part, joint);
+  }
   return covariance;
 }
 

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "closed_calibration/calibrated_model.hpp"
@@ -34,8 +33,13 @@ struct AssumedDrift {
 
 /// Parts of the belief whose sizes new poses may change: each is multiplied by a factor that they make likeliest.
 enum class BeliefPart { links, effects, outside, ripple };
-inline constexpr std::size_t kBeliefParts = 4;
-std::string_view to_string(BeliefPart part);
+inline constexpr std::array kAllBeliefParts{BeliefPart::links, BeliefPart::effects, BeliefPart::outside,
+                                            BeliefPart::ripple};
+inline constexpr std::size_t kBeliefParts = kAllBeliefParts.size();
+/// Each joint has its own.
+constexpr bool of_waves(BeliefPart part) {
+  return part == BeliefPart::outside || part == BeliefPart::ripple;
+}
 /// Of the variance of each part; 1 as stated.
 using PartFactors = std::array<double, kBeliefParts>;
 
@@ -53,12 +57,14 @@ class PriorModel {
   const SmoothCorrections& ripples() const { return ripples_; }  ///< waves of every joint about the model
   Eigen::Index numbers() const { return static_cast<Eigen::Index>(ids_.size() + ripples_.terms.size()); }
 
-  /// Covariance of the changes: ids, then waves.
-  Eigen::MatrixXd covariance(const PartFactors& factors) const;
+  int joints() const { return static_cast<int>(outside_.size()); }
+
+  /// Covariance of the changes: ids, then waves. `of_joint` multiplies the variance of a joint's waves besides.
+  Eigen::MatrixXd covariance(const PartFactors& factors, const Eigen::VectorXd& of_joint) const;
   /// The same of base and tool, and of what the model states of its own numbers: what no factor multiplies.
   Eigen::MatrixXd fixed_covariance() const;
-  /// The part alone, for a factor of 1.
-  Eigen::MatrixXd covariance_of(BeliefPart part) const;
+  /// The part alone, for a factor of 1; of waves those of one joint.
+  Eigen::MatrixXd covariance_of(BeliefPart part, int joint = 0) const;
 
   /// rows x numbers: how the field's rows change with each.
   RowMatrix columns(const ResidualField& field) const;

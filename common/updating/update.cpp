@@ -23,16 +23,10 @@
 #include "random/distributions.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
+#include "updating/belief_sizes.hpp"
 
 namespace demecal::inline updating {
 namespace {
-
-/// The new poses' rows about the present model, in units of their scatter.
-struct NewRows {
-  ResidualField field;
-  RowMatrix columns;
-  Eigen::VectorXd values;  ///< what the columns times the whole change are to explain
-};
 
 NewRows rows_about(const PriorModel& prior, const DataSet& data, const std::vector<std::size_t>& poses,
                    const RowScales& scales, const Eigen::VectorXd& change, bool robust) {
@@ -41,85 +35,6 @@ NewRows rows_about(const PriorModel& prior, const DataSet& data, const std::vect
   rows.columns = prior.columns(rows.field);
   rows.values = rows.field.residual + rows.columns * change;
   return rows;
-}
-
-/// Variance components of the rows, as far as factors multiply them.
-class RowCovariance {
- public:
-  RowCovariance(const PriorModel& prior, const NewRows& rows, Eigen::Index most_rows) {
-    count_ = std::min(rows.columns.rows(), most_rows);
-    // Whole poses, spread evenly.
-    std::vector<Eigen::Index> kept;
-    const auto poses = static_cast<double>(rows.field.poses.size());
-    const double share = static_cast<double>(count_) / static_cast<double>(rows.columns.rows());
-    double due = 0.0;
-    for (std::size_t i = 0; i < rows.field.poses.size() && poses > 0.0; ++i) {
-      due += share;
-      if (due < 1.0 - 1e-9) continue;
-      due -= 1.0;
-      for (Eigen::Index row = rows.field.first_row[i]; row < rows.field.first_row[i + 1]; ++row) kept.push_back(row);
-    }
-    count_ = std::ssize(kept);
-    const Eigen::MatrixXd columns = rows.columns(kept, Eigen::all);
-    values_ = rows.values(kept);
-    fixed_ = columns * prior.fixed_covariance() * columns.transpose();
-    for (std::size_t part = 0; part < kBeliefParts; ++part)
-      parts_[part] = columns * prior.covariance_of(static_cast<BeliefPart>(part)) * columns.transpose();
-  }
-
-  Eigen::MatrixXd covariance(const PartFactors& factors, double noise) const {
-    Eigen::MatrixXd sum = fixed_;
-    for (std::size_t part = 0; part < kBeliefParts; ++part) sum += factors[part] * parts_[part];
-    sum.diagonal().array() += noise;
-    return sum;
-  }
-
-  double minus_twice_log(const PartFactors& factors, double noise) const {
-    const Cholesky root(covariance(factors, noise));
-    if (!root.succeeded()) return 1e300;
-    return root.whitened(values_).squaredNorm() + root.log_determinant();
-  }
-
- private:
-  Eigen::Index count_ = 0;
-  Eigen::MatrixXd fixed_;
-  std::array<Eigen::MatrixXd, kBeliefParts> parts_;
-  Eigen::VectorXd values_;
-};
-
-struct Sizes {
-  PartFactors factors{1.0, 1.0, 1.0, 1.0};
-  double noise = 1.0;
-};
-
-/// The sizes that make the new rows likeliest, each believed to be one within a factor of some ten.
-Sizes likeliest_sizes(const RowCovariance& rows) {
-  constexpr double kBelief = 2.0, kNoiseBelief = 0.7;  ///< of the logarithm of a variance's factor
-  constexpr int kSweeps = 4;
-  const auto cost = [&](const Sizes& sizes) {
-    double sum = rows.minus_twice_log(sizes.factors, sizes.noise);
-    for (const double factor : sizes.factors) sum += std::pow(std::log(factor) / kBelief, 2.0);
-    sum += std::pow(std::log(sizes.noise) / kNoiseBelief, 2.0);
-    return sum;
-  };
-  Sizes best;
-  double least = cost(best);
-  double ratio = 4.0;
-  for (int sweep = 0; sweep < kSweeps; ++sweep, ratio = std::max(1.3, std::sqrt(ratio))) {
-    for (std::size_t which = 0; which <= kBeliefParts; ++which) {
-      for (const double by : {ratio, 1.0 / ratio}) {
-        for (int step = 0; step < 6; ++step) {
-          Sizes trial = best;
-          (which < kBeliefParts ? trial.factors[which] : trial.noise) *= by;
-          const double there = cost(trial);
-          if (there >= least - 1e-6) break;
-          least = there;
-          best = trial;
-        }
-      }
-    }
-  }
-  return best;
 }
 
 /// The most probable change, and a root of its covariance.
@@ -232,7 +147,7 @@ Posterior posterior_of_update(const PriorModel& prior, const Eigen::MatrixXd& ro
   return posterior;
 }
 
-void say_changes(const Sizes& sizes, bool of_fleet, Update& update) {
+void say_changes(const BeliefSizes& sizes, bool of_fleet, Update& update) {
   constexpr double kMuch = 3.0;
   for (std::size_t part = 0; part < kBeliefParts; ++part) {
     const double times = std::sqrt(sizes.factors[part]);
@@ -256,26 +171,25 @@ void say_changes(const Sizes& sizes, bool of_fleet, Update& update) {
 Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
                const std::vector<std::size_t>& poses, const DeclaredModel& declared, const AssumedDrift& drift) {
   constexpr int kSteps = 3;
-  constexpr Eigen::Index kMostRows = 480;
   constexpr std::size_t kMostLeftOut = 150;  ///< poses
   constexpr double kNothing = 1e-8;
   const PriorModel prior(model, placed, data, poses, declared, drift);
   RowScales scales = scales_of_new_poses(data, placed, poses, model.interval);
   Update update;
   Solution solution{Eigen::VectorXd::Zero(prior.numbers()), {}};
-  Sizes sizes;
+  BeliefSizes sizes;
   Eigen::MatrixXd covariance;
   std::vector<std::size_t> used = poses;
   for (int step = 0; step < kSteps; ++step) {
     const bool many = used.size() > kMostLeftOut;
     const NewRows rows = rows_about(prior, data, used, scales, solution.change, many && step > 0);
-    sizes = likeliest_sizes(RowCovariance(prior, rows, kMostRows));
-    covariance = prior.covariance(sizes.factors);
+    sizes = likeliest_sizes(prior, rows, model.fleet ? JointSizes::alike : JointSizes::each);
+    covariance = prior.covariance(sizes.factors, sizes.of_joint);
     if (!many) {
       const LeftOut all = left_out(covariance, rows, sizes.noise);
       if (step == 0) used = without_gross(all, rows);
       // A robot may be as it was; none is its fleet's mean.
-      const Eigen::MatrixXd little = prior.covariance({kNothing, kNothing, kNothing, kNothing});
+      const Eigen::MatrixXd little = prior.covariance({kNothing, kNothing, kNothing, kNothing}, sizes.of_joint);
       update.base_and_tool_only = !model.fleet && left_out(little, rows, sizes.noise).squares < all.squares;
       if (update.base_and_tool_only) covariance = little;
     }

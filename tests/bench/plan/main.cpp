@@ -13,6 +13,7 @@
 #include "planning/candidates.hpp"
 #include "planning/plan.hpp"
 #include "prediction/measurement.hpp"
+#include "priors.hpp"
 #include "random/distributions.hpp"
 #include "scene.hpp"
 #include "updating/change.hpp"
@@ -29,6 +30,7 @@ struct Options {
   std::vector<int> poses{15, 30};
   int fleet_seeds = 3;
   std::string only;
+  PriorOptions prior;
   bool json = false;
 };
 
@@ -187,13 +189,21 @@ void bench_changes(const Robot& robot, const Options& options) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  constexpr int kNoData = 10;
   Options options;
   CLI::App app{"planned poses beside random ones, predictions beside what is found, and changes named"};
   app.add_option("--seeds", options.seeds, "of truth, noise and plan")->capture_default_str();
   app.add_option("--cases", options.cases, "of each change")->capture_default_str();
   app.add_option("--poses", options.poses, "numbers of poses, LIST")->delimiter(',')->capture_default_str();
-  app.add_option("--only", options.only, "plan, check or fleet")->check(CLI::IsMember({"plan", "check", "fleet"}));
+  app.add_option("--only", options.only, "plan, check, fleet or prior")
+      ->check(CLI::IsMember({"plan", "check", "fleet", "prior"}));
   app.add_option("--fleet-seeds", options.fleet_seeds, "of types, their robots and noise")->capture_default_str();
+  app.add_option("--model", options.prior.model, "MODEL.yaml, the old one (default: of series A, without evolution)")
+      ->check(CLI::ExistingFile);
+  app.add_option("--draws", options.prior.draws, "of new poses for the old model")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--first-draw", options.prior.first_draw, "its number")->capture_default_str();
   app.add_flag("--json", options.json, "one JSON object a line");
   CLI11_PARSE(app, argc, argv);
   const auto asked = [&](const char* word) { return options.only.empty() || options.only == word; };
@@ -207,5 +217,7 @@ int main(int argc, char** argv) {
   for (const Robot& robot : arms())
     if (checks) bench_changes(robot, options);
   if (asked("fleet")) bench_fleets(options.fleet_seeds, options.json);
+  options.prior.json = options.json;
+  if (asked("prior") && !bench_priors(options.prior) && !options.only.empty()) return kNoData;
   return 0;
 }

@@ -1,0 +1,19 @@
+// What an old model of a robot is worth to few new poses of it, measured on the shared UR10.
+#pragma once
+
+#include <string>
+
+namespace demecal::bench {
+
+struct PriorOptions {
+  std::string model;  ///< file of the old model; empty: series A is diagnosed first, without evolution
+  int draws = 5;      ///< of poses, for each number of them
+  int first_draw = 1;
+  bool json = false;
+};
+
+/// Prints the rms error on accept poses of series B and C after an update by poses drawn from them, and with base and
+/// tool alone fitted to these. False, with a sentence on standard error, where the measurements are not there.
+bool bench_priors(const PriorOptions& options);
+
+}  // namespace demecal::bench
