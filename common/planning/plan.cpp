@@ -259,19 +259,18 @@ class Planning {
   }
 
   /// Others in the place of poses that no way leads to: of those that calibrate the candidates that tell most beside
-  /// the rest, where that costs little, of those that judge the next random ones; as far as more are reached so.
+  /// the rest, where these tell as much, of those that judge the next random ones; as far as more are reached so.
   void replace_blocked(Plan& plan, RefinedPoses& calibration, const Eigen::MatrixXd& known,
                        const Workspace& workspace) {
-    constexpr double kMostCost = 1.01;  // of the predicted error
-    const double enough_m = request_.accuracy_m.value_or(kMostCost * workspace.predicted(calibration.covariance).rms_m);
+    const double enough_m = request_.accuracy_m.value_or(workspace.predicted(calibration.covariance).rms_m);
     Plan tried = plan;
     RefinedPoses others = calibration;
+    std::vector<PlannedPose> left = candidates_;
     for (int round = 0; round < kReplacements && !tried.way.blocked.empty(); ++round) {
       places_ = poses_but(std::move(places_), tried.stops, tried.way.blocked);
-      candidates_ = poses_but(std::move(candidates_), tried.stops, tried.way.blocked);
+      left = poses_but(std::move(left), tried.stops, tried.way.blocked);
       const std::vector<PlannedPose> kept = poses_but(others.poses, tried.stops, tried.way.blocked);
-      RefinedPoses next =
-          completed(model_, kept, others.poses.size() - kept.size(), candidates_, known, workspace.weight());
+      RefinedPoses next = completed(model_, kept, others.poses.size() - kept.size(), left, known, workspace.weight());
       next = refined(model_, space_, std::move(next.poses), known, workspace.weight(),
                      stream(7 + static_cast<std::uint64_t>(round)));
       if (workspace.predicted(next.covariance).rms_m <= enough_m) others = std::move(next);
