@@ -50,7 +50,7 @@ Trial of_station(const Trial& trial, int station) {
   return alone;
 }
 
-std::string names_of(const DataSet& joined, const std::vector<int>& stations) {
+std::string names_of_stations(const DataSet& joined, const std::vector<int>& stations) {
   std::string names;
   for (const int station : stations)
     names += (names.empty() ? "" : " and ") + joined.stations[static_cast<std::size_t>(station)].name;
@@ -70,7 +70,7 @@ Finding zero_finding(const DataSet& joined, const StationZero& zero) {
       "mastering "
       "{}. A model of all is wrong for each: take the stations one by one, the later with the model of the earlier as "
       "--prior, or measure again.",
-      zero.joint + 1, zero_text(joined.robot.chain, zero.joint, zero.by), names_of(joined, zero.stations),
+      zero.joint + 1, zero_text(joined.robot.chain, zero.joint, zero.by), names_of_stations(joined, zero.stations),
       joined.stations.size() - zero.stations.size() > 1 ? "s" : "",
       before_and_after(zero.as_given_m, zero.if_changed_m));
   return finding;
@@ -117,7 +117,7 @@ std::vector<Finding> check_stations(const DataSet& joined) {
       "(medians). "
       "Another arm was measured, or this one was changed or loaded otherwise in between. Take the stations one by one, "
       "the later with the model of the earlier as --prior, and see what `check` says of it.",
-      distance_text(other->together_m), names_of(joined, {other->station}), distance_text(other->alone_m));
+      distance_text(other->together_m), names_of_stations(joined, {other->station}), distance_text(other->alone_m));
   return {finding};
 }
 

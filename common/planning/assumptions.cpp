@@ -32,7 +32,7 @@ constexpr double kRepeatabilityToAxis = 1.0 / 3.6;  ///< ISO 9283: mean distance
 
 /// The noise of a measured position per axis, m: as the cell states it, or of a tracker (a ball in its socket, where
 /// sockets are touched) and the arm's repeatability.
-double noise_of(const Robot& robot, const WorkCell& cell, bool by_touch) {
+double planned_noise_m(const Robot& robot, const WorkCell& cell, bool by_touch) {
   if (cell.noise_m) return *cell.noise_m;
   if (!robot.repeatability_m) return kUnknownNoise_m;
   return std::hypot(by_touch ? kPlay_m : kInstrument_m, kRepeatabilityToAxis * *robot.repeatability_m);
@@ -168,7 +168,7 @@ PlannedModel model_of(const PlanRequest& request, const FeasibleSpace& space) {
   model.declared = request.declared;
   model.orientation = space.cell().instrument && space.cell().instrument->measures_orientation;
   model.effects = effects_to_detect(request.robot, space.ranges(), request.detect, model.orientation);
-  model.noise_m = noise_of(request.robot, space.cell(), model.by_touch);
+  model.noise_m = planned_noise_m(request.robot, space.cell(), model.by_touch);
   return model;
 }
 

@@ -1,6 +1,7 @@
 #include "urdf/urdf_arm.hpp"
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -83,6 +84,11 @@ void set_limits(const UrdfJoint& joint, Joint& row, std::vector<std::string>& no
   if (slides || (joint.type == UrdfType::revolute && stated && !beyond)) return;
   if (joint.type == UrdfType::revolute && !stated)
     notes.push_back("joint " + joint.name + " states no limits and is taken to turn on and on (type: continuous)");
+  constexpr double kDegrees_rad = 1000.0;  // more is written where there are no limits
+  if (beyond && joint.type == UrdfType::revolute && row.upper - row.lower < kDegrees_rad)
+    notes.push_back("joint " + joint.name + " has limits of " + number_text(row.lower) + " to " +
+                    number_text(row.upper) +
+                    " rad, more than any arm turns, and is taken to turn on and on: they may be in degrees");
   row.endless = true;
   row.upper = kTurn_rad;
   row.lower = -row.upper;
@@ -189,6 +195,30 @@ void set_masses(const UrdfFile& urdf, UrdfArm& arm) {
         "all links have the same mass, as if nobody had weighed them: correct `links` or leave it out");
 }
 
+/// Says where a link of the name by which ROS calls the controller's frame (REP 199) stands elsewhere than the base.
+void note_controller_base(const UrdfFile& urdf, UrdfArm& arm) {
+  const std::string controllers = "base";
+  if (std::ranges::find(urdf.links, controllers, &UrdfLink::name) == urdf.links.end()) return;
+  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
+  std::string at = controllers;
+  while (at != arm.base) {
+    const UrdfJoint* joint = urdf.joint_to(at);
+    if (joint == nullptr || moves(*joint)) return;
+    pose = pose_of(joint->origin) * pose;
+    at = joint->parent;
+  }
+  const Eigen::Vector3d at_mm = 1e3 * pose.translation();
+  const double turn_deg = degrees(Eigen::AngleAxisd(pose.linear()).angle());
+  if (at_mm.norm() < 1e-3 && turn_deg < 1e-4) return;
+  const auto rounded = [](double value) { return number_text(std::round(1e3 * value) / 1e3 + 0.0); };
+  arm.notes.push_back("positions count from link " + arm.base +
+                      "; link base, from which controllers count, stands at [" + rounded(at_mm.x()) + ", " +
+                      rounded(at_mm.y()) + ", " + rounded(at_mm.z()) + "] mm there, turned by " + rounded(turn_deg) +
+                      " deg. Where positions and robot programs count from it, import with --base base "
+                      "--tip " +
+                      arm.tip);
+}
+
 }  // namespace
 
 UrdfArm arm_between(const UrdfFile& urdf, const std::optional<std::string>& base,
@@ -198,6 +228,7 @@ UrdfArm arm_between(const UrdfFile& urdf, const std::optional<std::string>& base
   if (tip) require_link(urdf, *tip, "--tip");
   arm.base = base ? *base : root_link(urdf);
   arm.tip = tip ? *tip : tip_link(urdf, arm.base, arm.notes);
+  if (!base) note_controller_base(urdf, arm);
   const Way way = way_between(urdf, arm.base, arm.tip);
   arm.drawing.by_axes = true;
   Eigen::Isometry3d fixed = way.up;

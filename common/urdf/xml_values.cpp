@@ -60,6 +60,8 @@ Eigen::Vector3d XmlValues::vector_or(const XmlElement* element, std::string_view
 }
 
 Origin XmlValues::origin(const XmlElement* element) const {
+  if (element != nullptr && element->attribute("quat_xyzw") != nullptr)
+    fail(*element, "quat_xyzw", "is not read here: state the same orientation as rpy");
   return {vector_or(element, "xyz", Eigen::Vector3d::Zero()), vector_or(element, "rpy", Eigen::Vector3d::Zero())};
 }
 

@@ -48,6 +48,33 @@ TEST(UrdfArm, SaysWhatItAssumesOfLimitsAndAxes) {
                           HasSubstr("joint j3 states no limits"), HasSubstr("joint j4 has its lower limit above")));
 }
 
+TEST(UrdfArm, SaysWhereTheFrameOfTheControllerStands) {
+  const auto with_base = [](const std::string& origin) {
+    return robot_xml(link_xml("base_link") + link_xml("base") + link_xml("a") + link_xml("tool0") +
+                     joint_xml("up", "fixed", "base_link", "base", origin) +
+                     joint_xml("j1", "revolute", "base_link", "a", kTurns) + joint_xml("end", "fixed", "a", "tool0"));
+  };
+  const UrdfFile other = parse_urdf(with_base("<origin xyz=\"0 0 0.33\" rpy=\"0 0 3.14159265\"/>"), "arm.urdf");
+  EXPECT_THAT(arm_between(other, {}, {}).notes, ElementsAre(AllOf(HasSubstr("[0, 0, 330] mm there, turned by 180 deg"),
+                                                                  HasSubstr("--base base --tip tool0"))));
+  EXPECT_THAT(arm_between(other, "base", "tool0").notes, IsEmpty());
+  const UrdfFile same = parse_urdf(with_base("<origin xyz=\"0 0 0\"/>"), "arm.urdf");
+  EXPECT_THAT(arm_between(same, {}, {}).notes, IsEmpty());
+}
+
+TEST(UrdfArm, SuspectsLimitsThatNoArmTurnsToAndRefusesQuaternions) {
+  const auto with_joint = [](const std::string& inside) {
+    return robot_xml(link_xml("base") + link_xml("a") + joint_xml("j1", "revolute", "base", "a", inside));
+  };
+  const std::string axis = "<axis xyz=\"0 0 1\"/>";
+  const UrdfFile degrees_file = parse_urdf(with_joint(axis + "<limit lower=\"-170\" upper=\"170\"/>"), "arm.urdf");
+  EXPECT_THAT(arm_between(degrees_file, {}, {}).notes, ElementsAre(HasSubstr("they may be in degrees")));
+  const UrdfFile endless = parse_urdf(with_joint(axis + "<limit lower=\"-1e16\" upper=\"1e16\"/>"), "arm.urdf");
+  EXPECT_THAT(arm_between(endless, {}, {}).notes, IsEmpty());
+  EXPECT_THAT(complaint_of(with_joint(axis + "<origin quat_xyzw=\"0 0 0.7 0.7\"/><limit lower=\"-1\" upper=\"1\"/>")),
+              AllOf(HasSubstr("arm.urdf:5"), HasSubstr("state the same orientation as rpy")));
+}
+
 TEST(UrdfArm, AddsUpTheMassesOfWhatMovesWithAJoint) {
   const auto mass = [](const char* kg, const char* at) {
     return "<inertial><mass value=\"" + std::string(kg) + "\"/><origin xyz=\"" + at + "\"/></inertial>";
