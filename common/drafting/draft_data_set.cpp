@@ -148,6 +148,8 @@ std::vector<JoinDraft> possible_joins(const std::vector<GivenTable>& tables) {
   std::vector<JoinDraft> joins;
   if (all_have(&GuessedColumns::pose))
     joins.push_back({"join: {by: name}\n", "rows of the files are joined by the name of the point"});
+  // Where most names are the same, the others are mistakes, which no other way to join may hide.
+  if (most_names_agree(tables)) return joins;
   if (all_have(&GuessedColumns::time)) {
     double step_s = 1e9;
     for (const GivenTable& given : tables)

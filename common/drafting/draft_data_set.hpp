@@ -24,6 +24,9 @@ struct GivenTable {
 std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::path>& files, std::size_t joints,
                                           const ToldLayout& told, const std::vector<std::string>& joint_names = {});
 
+/// Whether every table names its points in texts, of which most are the same.
+bool most_names_agree(const std::vector<GivenTable>& tables);
+
 /// As the arm's file names its joints; empty where it does not.
 std::vector<std::string> joint_names(const Robot& robot);
 

@@ -65,6 +65,15 @@ void find_names(std::vector<GivenTable>& tables) {
 
 }  // namespace
 
+bool most_names_agree(const std::vector<GivenTable>& tables) {
+  if (!std::ranges::all_of(tables, [](const GivenTable& given) { return given.columns.pose.has_value(); }))
+    return false;
+  const std::set<std::string> first = point_names(tables.front().read.table, *tables.front().columns.pose);
+  return std::ranges::all_of(tables, [&](const GivenTable& given) {
+    return names_match(first, point_names(given.read.table, *given.columns.pose));
+  });
+}
+
 std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::path>& files, std::size_t joints,
                                           const ToldLayout& told, const std::vector<std::string>& joint_names) {
   std::vector<GivenTable> tables;

@@ -64,6 +64,19 @@ TEST(Drafts, NameTheColumnsThatNothingReads) {
   EXPECT_THAT(assumed_with(headings, values), Contains(HasSubstr("channel10 and 29 more of ")));
 }
 
+TEST(Drafts, JoinByNameAloneWhereMostNamesAgree) {
+  const auto ways = [](const std::string& last) {
+    const TemporaryFolder folder;
+    const auto joints = folder.write("joints.csv", "name,q1_deg,q2_deg\np1,1,2\np2,2,3\np3,4,5\n");
+    const auto points = folder.write("points.csv", "name,x_mm,y_mm,z_mm\np3,3,4,5\np1,4,5,6\n" + last + ",5,6,7\n");
+    return draft_data_sets(read_given_tables({joints, points}, 2, {}), folder.path(), "robot.yaml", 2, {});
+  };
+  for (const char* last : {"p2", "p22"}) {
+    ASSERT_EQ(ways(last).size(), 1U) << last;
+    EXPECT_THAT(ways(last).front().text, HasSubstr("join: {by: name}"));
+  }
+}
+
 TEST(Drafts, NameColumnsAsTheFileDoes) {
   const TemporaryFolder folder;
   const auto table = folder.write("points.csv", "q1_deg,q2_deg,x,y,z\n1,2,300,4,5\n2,3,400,5,6\n");
