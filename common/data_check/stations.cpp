@@ -2,8 +2,6 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cstddef>
-#include <limits>
-#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -67,8 +65,8 @@ Finding zero_finding(const DataSet& joined, const StationZero& zero) {
       finding.poses.push_back(joined.poses[row.pose].pose_id);
   finding.sentence = fmt::format(
       "The zero of joint {} is another, by {}, in {} than at the other station{}, as after a collision or a new "
-      "mastering "
-      "{}. A model of all is wrong for each: take the stations one by one, the later with the model of the earlier as "
+      "mastering {}. A model of all is wrong for each: take the stations one by one, the later with the model of the "
+      "earlier as "
       "--prior, or measure again.",
       zero.joint + 1, zero_text(joined.robot.chain, zero.joint, zero.by), names_of_stations(joined, zero.stations),
       joined.stations.size() - zero.stations.size() > 1 ? "s" : "",
@@ -114,8 +112,8 @@ std::vector<Finding> check_stations(const DataSet& joined) {
                   .if_changed_mm = millimetres(other->alone_m)};
   finding.sentence = fmt::format(
       "The stations do not fit one arm: {} of errors are left at {} by one arm for all, {} by one of its own "
-      "(medians). "
-      "Another arm was measured, or this one was changed or loaded otherwise in between. Take the stations one by one, "
+      "(medians). Another arm was measured, or this one was changed or loaded otherwise in between. Take the stations "
+      "one by one, "
       "the later with the model of the earlier as --prior, and see what `check` says of it.",
       distance_text(other->together_m), names_of_stations(joined, {other->station}), distance_text(other->alone_m));
   return {finding};

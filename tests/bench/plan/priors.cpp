@@ -117,9 +117,6 @@ bool bench_priors(const PriorOptions& options) {
         draws.push_back(accepted_after(
             old, drawn_from(whole, poses,
                             RandomStream{800, static_cast<std::uint64_t>(poses), static_cast<std::uint64_t>(draw)})));
-        if (getenv("H3V"))
-          fmt::print(stderr, "{} {} {} {:.3f} {:.3f}\n", letter, poses, draw, draws.back().updated_mm,
-                     draws.back().placed_mm);
       }
       print_draws(letter, poses, draws, options.json);
     }
