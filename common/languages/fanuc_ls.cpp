@@ -59,10 +59,10 @@ class FanucReader {
     note_other_zero();
     end_at_motions_elsewhere();
     motions_.note_way(instructions_, program_);
-    for (Target& target : program_.targets) {
+    for (Target& target : program_.targets)
       if (target.is_pose() && tracks_a_line(text_))
         target.frames.unknown_frame = "it may move with a line that is tracked";
-    }
+    program_.joint_counting = fanuc_joint_counting(program_.targets, arm_);
     return std::move(program_);
   }
 

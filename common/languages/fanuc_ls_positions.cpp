@@ -86,4 +86,12 @@ std::vector<std::optional<int>> fanuc_turns(std::string_view configuration) {
   return turns;
 }
 
+std::string fanuc_joint_counting(const std::vector<Target>& targets, const Chain& arm) {
+  const bool has_joints = std::ranges::any_of(targets, [](const Target& target) { return !target.is_pose(); });
+  const auto is_it = [](const CommandCoupling& coupling) { return coupling.joint == 2 && coupling.from == 1; };
+  if (!has_joints || std::ranges::any_of(arm.couplings, is_it)) return {};
+  return "Joint 3 is taken to count against link 2, as in the robot's description; FANUC's programs count it against "
+         "the ground: state `couplings: [{joint: 3, from: 2, factor: 1}]` there if these do.\n";
+}
+
 }  // namespace demecal::inline languages

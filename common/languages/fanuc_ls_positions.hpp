@@ -8,6 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "kinematics/chain.hpp"
+#include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline languages {
@@ -27,5 +29,9 @@ std::optional<FanucParts> fanuc_position_parts(const ProgramText& text, std::siz
 /// ArmHint::turns of CONFIG's words, without blanks: "NUT,0,0,1" states turns of joints 1, 4 and 6. Empty where three
 /// numbers do not stand there.
 std::vector<std::optional<int>> fanuc_turns(std::string_view configuration);
+
+/// Program::joint_counting: FANUC's pendants and programs count joint 3 against the ground. Empty where no target
+/// states joints, or the arm states such a coupling.
+std::string fanuc_joint_counting(const std::vector<Target>& targets, const Chain& arm);
 
 }  // namespace demecal::inline languages

@@ -111,16 +111,6 @@ std::string base_text(const Chain& arm) {
       millimetres(height_m));
 }
 
-/// How joint 3 of a FANUC counts: its pendants and programs show it against the ground.
-std::string pendant_text(const Program& program, const Chain& arm) {
-  const bool has_joints = std::ranges::any_of(program.targets, [](const Target& target) { return !target.is_pose(); });
-  const auto is_it = [](const CommandCoupling& coupling) { return coupling.joint == 2 && coupling.from == 1; };
-  if (program.language != "fanuc_ls" || !has_joints || std::ranges::any_of(arm.couplings, is_it)) return "";
-  return "Joint 3 is taken to count against link 2, as in the robot's description; FANUC's programs count it against "
-         "the "
-         "ground: state `couplings: [{joint: 3, from: 2, factor: 1}]` there if these do.\n";
-}
-
 }  // namespace
 
 TargetFigures target_figures(const Target& target, const CorrectedTarget& corrected, const Chain& arm) {
@@ -177,7 +167,7 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
                       figures.targets, figures.mean_mm, figures.max_mm);
   const std::size_t left = static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size();
   if (left > 0) text += fmt::format("; {} left as they are", left);
-  text += '\n' + pendant_text(corrected.program, arm);
+  text += '\n' + corrected.program.joint_counting;
   for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
     if (corrected.program.targets[i].is_pose() && !corrected.targets[i].is_uncorrected()) return text + base_text(arm);
   }

@@ -164,5 +164,20 @@ TEST(FanucMotions, AreInFramesThatSystemVariablesChange) {
     EXPECT_THAT(frames(other).unknown_tool + frames(other).unknown_frame, IsEmpty()) << other;
 }
 
+TEST(FanucJoints, SayHowJointThreeIsTakenToCountWhereTheRobotDoesNot) {
+  const auto read = [](const std::string& position, const Chain& arm) {
+    const ProgramSource source(listing("1: J P[1] 9% FINE ;\n", position), "p");
+    return read_program(row_of(WrittenIn::fanuc_ls), source, arm, {}).joint_counting;
+  };
+  const std::string joints =
+      "P[1]{\n GP1:\n UF : 0, UT : 0,\n J1 = 1 deg, J2 = 2 deg, J3 = 3 deg,"
+      " J4 = 4 deg, J5 = 5 deg, J6 = 6 deg\n};\n";
+  Chain arm = wrist_arm();
+  EXPECT_THAT(read(joints, arm), HasSubstr("Joint 3 is taken to count against link 2"));
+  EXPECT_THAT(read(position(1), arm), IsEmpty());
+  arm.couplings.push_back({2, 1, 1.0});
+  EXPECT_THAT(read(joints, arm), IsEmpty());
+}
+
 }  // namespace
 }  // namespace demecal
