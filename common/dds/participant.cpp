@@ -1,6 +1,9 @@
 #include "dds/participant.hpp"
 
 #include <fastrtps/attributes/LibrarySettingsAttributes.h>
+#include <fastrtps/types/DynamicDataFactory.h>
+#include <fastrtps/types/DynamicTypeBuilderFactory.h>
+#include <fastrtps/types/TypeObjectFactory.h>
 #include <fastrtps/utils/IPLocator.h>
 #include <fastrtps/xmlparser/XMLProfileManager.h>
 #include <algorithm>
@@ -57,11 +60,14 @@ void set_up_log() {
   fastdds::Log::RegisterConsumer(std::move(to_stderr));
 }
 
-/// The library logs errors alone; and it takes the same path between participants of one process as between
-/// processes.
+/// The library logs errors alone; it takes the same path between participants of one process as between processes; and
+/// it has all that it makes types of before a thread of discovery can want it: it guards none of that while it is made.
 void set_up_library() {
   static const bool once = [] {
     set_up_log();
+    eprosima::fastrtps::types::TypeObjectFactory::get_instance();
+    eprosima::fastrtps::types::DynamicTypeBuilderFactory::get_instance();
+    eprosima::fastrtps::types::DynamicDataFactory::get_instance();
     eprosima::fastrtps::LibrarySettingsAttributes settings;
     settings.intraprocess_delivery = eprosima::fastrtps::INTRAPROCESS_OFF;
     eprosima::fastrtps::xmlparser::XMLProfileManager::library_settings(settings);

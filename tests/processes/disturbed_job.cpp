@@ -22,6 +22,7 @@ Disturbances& Disturbances::operator+=(const Disturbances& other) {
   left += other.left;
   joined += other.joined;
   resumed += other.resumed;
+  crashed += other.crashed;
   return *this;
 }
 
@@ -40,7 +41,15 @@ Ended DisturbedJob::run() {
     if (coordinator_->ends_within(calm)) break;
     disturb();
   }
+  for (Worker& worker : workers_) note_crash(worker, std::chrono::milliseconds(0));
   return coordinator_->wait(std::chrono::seconds(0));
+}
+
+void DisturbedJob::note_crash(Worker& worker, std::chrono::milliseconds patience) {
+  constexpr int kSignalled = 128;
+  if (!worker.program->ends_within(patience)) return;
+  const int code = worker.program->wait().code;
+  for (const int own : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL}) happened_.crashed += code == kSignalled + own;
 }
 
 void DisturbedJob::start_coordinator(bool resume) {
@@ -81,6 +90,7 @@ void DisturbedJob::add() {
 
 void DisturbedJob::kill_worker() {
   const auto victim = workers_.begin() + static_cast<std::ptrdiff_t>(random_.index(workers_.size()));
+  note_crash(*victim, std::chrono::milliseconds(0));
   victim->program->signal(SIGKILL);
   workers_.erase(victim);
   ++happened_.killed;
@@ -108,7 +118,7 @@ void DisturbedJob::dismiss() {
   const auto worker = workers_.begin() + static_cast<std::ptrdiff_t>(random_.index(workers_.size()));
   if (worker->stopped) return;
   worker->program->signal(SIGTERM);
-  worker->program->wait();
+  note_crash(*worker, kPatience);
   workers_.erase(worker);
   ++happened_.left;
   keep_one();

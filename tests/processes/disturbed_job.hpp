@@ -3,6 +3,7 @@
 // seed.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,7 @@ namespace demecal {
 /// What befell a calibration.
 struct Disturbances {
   int killed = 0, stopped = 0, continued = 0, left = 0, joined = 0, resumed = 0;
+  int crashed = 0;  ///< workers that ended by a signal of their own
 
   Disturbances& operator+=(const Disturbances& other);
 };
@@ -43,6 +45,7 @@ class DisturbedJob {
   void continue_one();
   void dismiss();
   void kill_local_worker();
+  void note_crash(Worker& worker, std::chrono::milliseconds patience);
   void kill_coordinator();
   void keep_one();
 

@@ -49,6 +49,7 @@ TEST(Faults, OfThirtyTwoSchedulesLeaveTheSameModel) {
   for (std::uint64_t seed = 0; seed < kSchedules; ++seed) {
     EXPECT_EQ(tried[seed].ended.code, 0) << "schedule " << seed << ": " << tried[seed].ended.err;
     EXPECT_EQ(tried[seed].model, model) << "schedule " << seed;
+    EXPECT_EQ(tried[seed].happened.crashed, 0) << "schedule " << seed;
     all += tried[seed].happened;
   }
   for (const int count : {all.killed, all.stopped, all.continued, all.left, all.joined, all.resumed}) {
