@@ -28,9 +28,8 @@ namespace {
 
 constexpr double kDisagrees = 4.0;  ///< standard deviations
 
-/// Where the poses of a contact have it, and how that moves with each of the posterior's independent numbers.
+/// How the mean of the points of a contact's poses moves with each of the posterior's independent numbers.
 struct PlacedContact {
-  Eigen::Vector3d point_m = Eigen::Vector3d::Zero();
   Eigen::MatrixXd spread_m;  ///< 3 x numbers
   double touches = 0.0;
 };
@@ -44,13 +43,10 @@ class PlacedContacts {
     const std::vector<std::size_t>& members = groups_.at(group);
     PlacedContact place{.spread_m = Eigen::MatrixXd::Zero(3, posterior_.factor.cols()),
                         .touches = static_cast<double>(members.size())};
-    std::vector<Touch> touches;
     for (const std::size_t index : members) {
       const MeasuredPose& pose = data_.poses[index];
-      touches.push_back(touch_of(robot_, pose));
       place.spread_m += pose_spread(posterior_, robot_, Stop(pose), pose.target).topRows<3>() / place.touches;
     }
-    place.point_m = contact_place(data_.contacts.form_of(group.contact), touches).frame.translation();
     return place;
   }
 
@@ -63,8 +59,8 @@ class PlacedContacts {
 
 /// What the model leaves open of a length, m^2: contacts' places are means of so many touches, but what it errs by
 /// beyond its posterior touches have in common.
-double open_m2(const PlacedContact& first, const PlacedContact& second, const PredictionInterval& interval) {
-  const Eigen::Vector3d along = (first.point_m - second.point_m).stableNormalized();
+double open_m2(const PlacedContact& first, const PlacedContact& second, const Eigen::Vector3d& along,
+               const PredictionInterval& interval) {
   const Eigen::RowVectorXd spread_m = along.transpose() * (first.spread_m - second.spread_m);
   return spread_m.squaredNorm() + std::pow(interval.noise_m, 2) * (1.0 / first.touches + 1.0 / second.touches) +
          2.0 * std::pow(interval.model_error_m, 2);
@@ -85,7 +81,7 @@ std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const Correct
   for (const LengthError& one : length_errors(robot, data)) {
     const KnownDistance& known = *one.known;
     const PlacedContact first = places.at({known.first, one.set}), second = places.at({known.second, one.set});
-    const double deviation_m = std::sqrt(known.sigma_m * known.sigma_m + open_m2(first, second, interval));
+    const double deviation_m = std::sqrt(known.sigma_m * known.sigma_m + open_m2(first, second, one.along, interval));
     if (!(std::abs(one.error_m) > kDisagrees * deviation_m)) continue;
     Finding finding{.kind = FindingKind::disagreeing_length, .as_given_mm = millimetres(std::abs(one.error_m))};
     finding.sentence = fmt::format(
@@ -103,7 +99,7 @@ std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const Correct
                             : "and the names of the contacts.";
     found.push_back(std::move(finding));
   }
-  return found;
+  return worst_lengths(std::move(found));
 }
 
 }  // namespace demecal::inline data_check

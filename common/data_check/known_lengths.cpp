@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -54,7 +55,7 @@ struct ComparedLength {
   }
 };
 
-using MedianPlaces = std::map<ContactGroup, Eigen::Vector3d>;
+using MedianPlaces = std::map<ContactGroup, ContactPlace>;
 
 /// Where the poses of every contact and set have it; of points the median along each axis, which a few poses at another
 /// contact cannot move.
@@ -64,13 +65,13 @@ MedianPlaces median_places(const DataSet& data, const CorrectedRobot& robot) {
     std::vector<Touch> touches;
     for (const std::size_t pose : members) touches.push_back(touch_of(robot, data.poses[pose]));
     const ContactForm form = data.contacts.form_of(group.contact);
-    Eigen::Vector3d place_m = contact_place(form, touches).frame.translation();
+    ContactPlace place = contact_place(form, touches);
     for (int axis = 0; form.kind == ContactKind::point && axis < 3; ++axis) {
       std::vector<double> along;
       for (const Touch& touch : touches) along.push_back(touch.point_m[axis]);
-      place_m[axis] = median(along);
+      place.frame.translation()[axis] = median(along);
     }
-    places[group] = place_m;
+    places[group] = place;
   }
   return places;
 }
@@ -81,9 +82,13 @@ std::vector<ComparedLength> compared(const KnownDistance& known, const MedianPla
   for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
     const auto first = places.find({known.first, set}), second = places.find({known.second, set});
     if (first != places.end() && second != places.end())
-      all.push_back({&known, set, (first->second - second->second).norm()});
+      all.push_back({&known, set, separation(first->second, second->second).length_m});
   }
   return all;
+}
+
+double apart_m(const ContactPlace& one, const ContactPlace& other) {
+  return (one.frame.translation() - other.frame.translation()).norm();
 }
 
 /// Two contacts of a set of which each stands where the other does in another set, one of them `contact`.
@@ -95,12 +100,12 @@ std::optional<ExchangedNames> exchange_about(const std::string& contact, PoseSet
   for (const PoseSet other : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
     const auto own = places.find({contact, set}), elsewhere = places.find({contact, other});
     if (other == set || own == places.end() || elsewhere == places.end()) continue;
-    for (const auto& [group, place_m] : places) {
+    for (const auto& [group, place] : places) {
       if (group.set != set || group.contact == contact) continue;
       const auto there = places.find({group.contact, other});
       if (there == places.end()) continue;
-      const double near_m = kNearShare * (there->second - elsewhere->second).norm();
-      if ((own->second - there->second).norm() < near_m && (place_m - elsewhere->second).norm() < near_m)
+      const double near_m = kNearShare * apart_m(there->second, elsewhere->second);
+      if (apart_m(own->second, there->second) < near_m && apart_m(place, elsewhere->second) < near_m)
         return ExchangedNames{std::min(contact, group.contact), std::max(contact, group.contact)};
     }
   }
@@ -160,6 +165,16 @@ std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobo
     const bool everywhere = std::ranges::all_of(all, is_wrong);
     found.push_back(everywhere ? wrong_everywhere(*first) : wrong_in_one_set(*first, data, places));
   }
+  return worst_lengths(std::move(found));
+}
+
+std::vector<Finding> worst_lengths(std::vector<Finding> found) {
+  constexpr std::size_t kMost = 3;
+  if (found.size() <= kMost) return found;
+  std::ranges::stable_sort(found, std::greater{}, &Finding::as_given_mm);
+  const std::size_t more = found.size() - kMost;
+  found.resize(kMost);
+  found.back().sentence += fmt::format(" {} more known length{} wrong, too.", more, more == 1 ? " is" : "s are");
   return found;
 }
 

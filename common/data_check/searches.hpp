@@ -167,6 +167,9 @@ std::optional<Finding> find_exchanged_contacts(const DataSet& data);
 /// contact `apart_m` from their middle.
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m);
 
+/// The three of these lengths that are off most, and how many more there are.
+std::vector<Finding> worst_lengths(std::vector<Finding> found);
+
 /// Contacts that moved, and poses that the contact they name does not fit, before it moved or after: those that fit
 /// another one, or that alone name it, as wrong_contact, others as outlier; and planes that are not flat. `robot`
 /// predicts the tool.

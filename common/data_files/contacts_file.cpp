@@ -5,6 +5,7 @@
 #include "data_files/data_set_file.hpp"
 #include "yaml/yaml_node.hpp"
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -30,6 +31,7 @@ constexpr const char* kRadiiSigma = "radii_sigma_mm";
 constexpr double kUnstated = -1.0;  ///< the uncertainty of a radius, while it is read
 constexpr const char* kFlatness = "flatness_mm";
 constexpr const char* kDistances = "distances";
+constexpr const char* kGrids = "grids";
 constexpr const char* kParallel = "parallel";
 constexpr const char* kSquare = "square";
 
@@ -54,7 +56,7 @@ class ContactsReader {
   explicit ContactsReader(DataSet& data) : data_(data), names_(contact_names(data)) {}
 
   void read(const YamlNode& node) {
-    node.with_keys({kContactKinds, kRadii, kRadiiSigma, kFlatness, kDistances, kParallel, kSquare});
+    node.with_keys({kContactKinds, kRadii, kRadiiSigma, kFlatness, kDistances, kGrids, kParallel, kSquare});
     for (const YamlNode& kind : named_values(node.find(kContactKinds))) {
       require_contact(kind, kind.name);
       if (data_.contacts.forms.contains(kind.name))
@@ -77,6 +79,8 @@ class ContactsReader {
     }
     if (const YamlNode* distances = node.find(kDistances))
       for (const YamlNode& one : distances->list()) read_distance(one);
+    if (const YamlNode* grids = node.find(kGrids))
+      for (const YamlNode& one : grids->list()) read_grid(one);
     for (const char* relation : {kParallel, kSquare})
       if (const YamlNode* angles = node.find(relation))
         for (const YamlNode& one : angles->list()) read_angle(one, relation == kSquare);
@@ -132,10 +136,15 @@ class ContactsReader {
     return between(node);
   }
 
+  void require_no_line(const YamlNode& node, const std::string& contact) const {
+    if (data_.contacts.form_of(contact).kind != ContactKind::line) return;
+    node.fail(contact, "is a line: distances are between points, centres of spheres and planes");
+  }
+
   void require_centre(const YamlNode& node, const std::string& contact) const {
     const ContactKind kind = data_.contacts.form_of(contact).kind;
     if (kind == ContactKind::point || kind == ContactKind::sphere) return;
-    node.fail(contact, "is a " + std::string(to_string(kind)) + ": distances are between points or centres of spheres");
+    node.fail(contact, "is a " + std::string(to_string(kind)) + ": a grid is of points or of centres of spheres");
   }
 
   void require_direction(const YamlNode& node, const std::string& contact) const {
@@ -148,9 +157,34 @@ class ContactsReader {
     KnownDistance known = read_known_distance(node);
     for (const YamlNode& name : node.at("between").list(2)) {
       require_contact(name, name.text());
-      require_centre(node, name.text());
+      require_no_line(node, name.text());
     }
     data_.contacts.distances.push_back(std::move(known));
+  }
+
+  /// Where holes are on a plate, along its own axes, z 0 where it is not given.
+  Eigen::Vector3d place_m(const YamlNode& place) const {
+    require_contact(place, place.name);
+    require_centre(place, place.name);
+    const Eigen::Vector3d place_mm =
+        place.list().size() == 3 ? place.vector3() : Eigen::Vector3d(place.vector2().x(), place.vector2().y(), 0.0);
+    return place_mm.unaryExpr([](double mm) { return metres(mm); });
+  }
+
+  /// A grid is the lengths between all its places, each believed so much less that together they say as much as so many
+  /// places do of which each is known by itself.
+  void read_grid(const YamlNode& node) {
+    node.with_keys({"places_mm", "sigma_mm"});
+    const std::vector<YamlNode> places = named_values(&node.at("places_mm"));
+    if (places.size() < 2) node.at("places_mm").fail("names fewer than two contacts: a grid has at least two");
+    const double sigma_m = metres(node.at("sigma_mm").positive()) * std::sqrt(static_cast<double>(places.size()));
+    for (std::size_t second = 1; second < places.size(); ++second) {
+      for (std::size_t first = 0; first < second; ++first) {
+        const double length_m = (place_m(places[second]) - place_m(places[first])).norm();
+        if (!(length_m > 0.0)) places[second].fail(places[second].name, "is where " + places[first].name + " is");
+        data_.contacts.distances.push_back({places[first].name, places[second].name, length_m, sigma_m});
+      }
+    }
   }
 
   void read_angle(const YamlNode& node, bool square) {

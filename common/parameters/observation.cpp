@@ -152,13 +152,15 @@ class RelationCollector {
     const std::vector<PoseSet> sets = sets_with(known.first, known.second);
     for (const PoseSet set : sets) {
       const double sigma = known.sigma_m * std::sqrt(static_cast<double>(sets.size()));
-      const Eigen::Vector3d apart = place(known.first, set).frame.translation() -  //
-                                    place(known.second, set).frame.translation();
-      const Eigen::Vector3d along = apart.stableNormalized();
+      const ContactPlace &first = place(known.first, set), &second = place(known.second, set);
+      const auto [length_m, along] = separation(first, second);
       Eigen::VectorXd row = Eigen::VectorXd::Zero(space_.size());
       add_shift(row, {known.first, set}, -along / sigma);
       add_shift(row, {known.second, set}, along / sigma);
-      push((known.length_m - apart.norm()) / sigma, row);
+      if (first.kind == ContactKind::plane || second.kind == ContactKind::plane)
+        add_turn(row, {first.kind == ContactKind::plane ? known.first : known.second, set}, along,
+                 first.frame.translation() - second.frame.translation(), -1.0 / sigma);
+      push((known.length_m - length_m) / sigma, row);
     }
   }
 
@@ -212,20 +214,23 @@ class RelationCollector {
   }
 
   void add_shift(Eigen::VectorXd& row, const ContactGroup& group, const Eigen::Vector3d& slope) const {
-    const Eigen::Matrix3d& axes = point_.robot.contacts.at(group).frame.linear();
     for (const auto& [motion, column] : columns_.at(group))
-      if (motion < 3) row[column] += slope.dot(axes.col(motion));
+      if (motion < 3) row[column] += slope.dot(shift_axis(point_.robot.contacts.at(group), motion, turn_of(group)));
   }
 
   /// The product of a direction of the place and a vector that stays.
   void add_turn(Eigen::VectorXd& row, const ContactGroup& group, const Eigen::Vector3d& direction,
                 const Eigen::Vector3d& fixed, double factor) const {
-    const auto turned = point_.contact_turns.find(group);
-    const Eigen::Vector3d turn = turned == point_.contact_turns.end() ? Eigen::Vector3d::Zero() : turned->second;
     for (const auto& [motion, column] : columns_.at(group)) {
       if (motion < 3 || motion == kRadiusMotion) continue;
-      row[column] += factor * turn_axis(point_.robot.contacts.at(group), motion, turn).cross(direction).dot(fixed);
+      const Eigen::Vector3d axis = turn_axis(point_.robot.contacts.at(group), motion, turn_of(group));
+      row[column] += factor * axis.cross(direction).dot(fixed);
     }
+  }
+
+  Eigen::Vector3d turn_of(const ContactGroup& group) const {
+    const auto turned = point_.contact_turns.find(group);
+    return turned == point_.contact_turns.end() ? Eigen::Vector3d::Zero() : turned->second;
   }
 
   void push(double residual, Eigen::VectorXd row) {

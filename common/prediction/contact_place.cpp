@@ -148,6 +148,15 @@ std::vector<double> from_middle_m(const Touches& touches) {
 
 }  // namespace
 
+Separation separation(const ContactPlace& first, const ContactPlace& second) {
+  const Eigen::Vector3d apart = first.frame.translation() - second.frame.translation();
+  const bool first_is_plane = first.kind == ContactKind::plane;
+  if (!first_is_plane && second.kind != ContactKind::plane) return {apart.norm(), apart.stableNormalized()};
+  const Eigen::Vector3d normal = (first_is_plane ? first : second).frame.linear().col(2);
+  const double across_m = normal.dot(apart);
+  return {std::abs(across_m), across_m < 0.0 ? Eigen::Vector3d(-normal) : normal};
+}
+
 std::vector<int> motions_of(const ContactPlace& place) {
   switch (place.kind) {
     case ContactKind::point:
@@ -203,8 +212,12 @@ Eigen::Vector3d equivalent_motion(const ContactPlace& place, int motion, const E
                                   const Eigen::Vector3d& point_m) {
   const Eigen::Vector3d off = point_m - place.frame.translation();
   if (motion == kRadiusMotion) return -off.stableNormalized();
-  if (motion < 3) return -(place.frame.linear() * rotation_of(turn).transpose()).col(motion);
+  if (motion < 3) return -shift_axis(place, motion, turn);
   return -turn_axis(place, motion, turn).cross(off);
+}
+
+Eigen::Vector3d shift_axis(const ContactPlace& place, int motion, const Eigen::Vector3d& turn) {
+  return (place.frame.linear() * rotation_of(turn).transpose()).col(motion);
 }
 
 Eigen::Vector3d turn_axis(const ContactPlace& place, int motion, const Eigen::Vector3d& turn) {

@@ -26,6 +26,14 @@ struct Touch {
   double length_m = 0.0;
 };
 
+/// How far apart two places are, neither of them a line: points and centres of spheres from each other; where one is a
+/// plane, its frame's origin or the other place from it (of two planes, the second from the first).
+struct Separation {
+  double length_m = 0.0;
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit; how it grows as the first place moves
+};
+Separation separation(const ContactPlace& first, const ContactPlace& second);
+
 /// The motions that move a place of that kind: 0 to 2 along the frame's axes, 3 to 5 about them, kRadiusMotion.
 inline constexpr int kRadiusMotion = 6;
 std::vector<int> motions_of(const ContactPlace& place);
@@ -43,6 +51,9 @@ Eigen::Matrix<double, Eigen::Dynamic, 3> contact_jacobian(const ContactPlace& pl
 /// the rotation vector that the frame has been turned by from that which the motions 3 to 5 are components of.
 Eigen::Vector3d equivalent_motion(const ContactPlace& place, int motion, const Eigen::Vector3d& turn,
                                   const Eigen::Vector3d& point_m);
+
+/// The direction along which a unit of one of the motions 0 to 2 shifts the place.
+Eigen::Vector3d shift_axis(const ContactPlace& place, int motion, const Eigen::Vector3d& turn);
 
 /// The direction (of unit length to first order) about which a unit of one of the motions 3 to 5 turns the place.
 Eigen::Vector3d turn_axis(const ContactPlace& place, int motion, const Eigen::Vector3d& turn);

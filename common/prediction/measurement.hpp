@@ -84,7 +84,8 @@ bool measures_point(const MeasuredPose& pose);
 struct LengthError {
   const KnownDistance* known = nullptr;
   PoseSet set = PoseSet::calibration;
-  double error_m = 0.0;  ///< between the two contacts' places, minus the known length
+  double error_m = 0.0;                             ///< between the two contacts' places, minus the known length
+  Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit; how it grows as the first place moves
 };
 /// Of every known distance, in every set that touches both its ends; contacts where `robot`'s own poses have them.
 std::vector<LengthError> length_errors(const CorrectedRobot& robot, const DataSet& data);

@@ -103,11 +103,33 @@ TEST_F(ContactFiles, HaveOnlyWhatTheirKindHas) {
   EXPECT_THAT(complaint([&] { load("contacts: {flatness_mm: {a: 0.1}}\n"); }),
               HasSubstr("only planes have a flatness"));
   EXPECT_THAT(complaint([&] {
-                load("contacts: {kinds: {plate: plane}, distances: [{between: [a, plate], mm: 5, sigma_mm: 1}]}\n");
+                load("contacts: {kinds: {plate: line}, distances: [{between: [a, plate], mm: 5, sigma_mm: 1}]}\n");
               }),
-              HasSubstr("distances are between points or centres of spheres"));
+              HasSubstr("distances are between points, centres of spheres and planes"));
+  EXPECT_NO_THROW(load("contacts: {kinds: {plate: plane}, distances: [{between: [a, plate], mm: 5, sigma_mm: 1}]}\n"));
   EXPECT_THAT(complaint([&] { load("contacts: {parallel: [{between: [a, b], sigma_deg: 1}]}\n"); }),
               HasSubstr("only planes and lines have a direction"));
+}
+
+TEST_F(ContactFiles, OfAGridAreAsFarApartAsItsPlacesAre) {
+  DataSet data = load("contacts: {grids: [{places_mm: {a: [0, 0], b: [30, 40], ball: [0, 0, 10]}, sigma_mm: 0.02}]}\n");
+  for (int times = 0; times < 2; ++times) {
+    ASSERT_EQ(data.contacts.distances.size(), 3u);
+    EXPECT_EQ(data.contacts.distances[0].first + data.contacts.distances[0].second, "ab");
+    EXPECT_NEAR(data.contacts.distances[0].length_m, 0.05, 1e-15);
+    EXPECT_NEAR(data.contacts.distances[1].length_m, 0.01, 1e-15);
+    EXPECT_NEAR(data.contacts.distances[2].sigma_m, std::sqrt(3.0) * 2e-5, 1e-15);
+    const TemporaryFolder written;
+    data = load_data_set(write_data_set(data, written.path(), "again"));
+  }
+  const auto refused = [&](const std::string& grid) {
+    return complaint([&] { load("contacts: {kinds: {plate: plane}, grids: [{" + grid + ", sigma_mm: 0.02}]}\n"); });
+  };
+  EXPECT_THAT(refused("places_mm: {a: [0, 0]}"), HasSubstr("fewer than two contacts"));
+  EXPECT_THAT(refused("places_mm: {a: [0, 0], b: [0, 0]}"), HasSubstr("is where a is"));
+  EXPECT_THAT(refused("places_mm: {a: [0, 0], plate: [9, 0]}"), HasSubstr("a grid is of points"));
+  EXPECT_THAT(refused("places_mm: {a: [0, 0], balls: [9, 0]}"), HasSubstr("the nearest is 'ball'"));
+  EXPECT_THAT(refused("places_mm: {a: [0], b: [9, 0]}"), HasSubstr("places_mm.a"));
 }
 
 TEST_F(ContactFiles, OfARowThatMeasuresNothingElseMustBeNamed) {

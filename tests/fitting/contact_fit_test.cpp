@@ -239,14 +239,18 @@ TEST(RelationRows, ChangeWithThePlacesAsTheirDerivativesSay) {
   arm.data.contacts.forms = {
       {"p", {ContactKind::plane, {}}}, {"r", {ContactKind::plane, {}}}, {"s", {ContactKind::sphere, {}}}};
   for (MeasuredPose& pose : arm.data.poses) pose.contact_kind = arm.data.contacts.form_of(pose.contact).kind;
-  arm.data.contacts.distances = {{"a", "b", 0.5, 1e-4}, {"s", {}, 0.04, 5e-5}};
+  arm.data.contacts.distances = {{"a", "b", 0.5, 1e-4},
+                                 {"s", {}, 0.04, 5e-5},
+                                 {"p", "r", 0.3, 1e-4},
+                                 {"p", "a", 0.3, 1e-4},
+                                 {"s", "p", 0.3, 1e-4}};
   arm.data.contacts.angles = {{"p", "r", false, 1e-2}, {"p", "r", true, 1e-2}};
   const std::vector<ParameterId> ids = contact_parameters(arm.data, all_poses(arm.data));
   const ParameterSpace space(with_own_contacts(nominal_robot(arm.data), arm.data), ids);
   Eigen::VectorXd change(space.size());
   for (double& value : change) value = 0.1 * stream.normal();
   const RelationRows rows = relation_rows(arm.data, space, space.at(change));
-  ASSERT_EQ(rows.residual.size(), 5);
+  ASSERT_EQ(rows.residual.size(), 8);
   for (int i = 0; i < space.size(); ++i) {
     const Eigen::VectorXd step = kStep * Eigen::VectorXd::Unit(space.size(), i);
     const Eigen::VectorXd slope = (relation_rows(arm.data, space, space.at(change + step)).residual -
