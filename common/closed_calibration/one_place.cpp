@@ -115,10 +115,11 @@ std::vector<Eigen::Vector3d> touched_places_m(const DataSet& data, const Correct
   std::vector<Eigen::Vector3d> places_m;
   for (const auto& [group, poses] : contact_groups(data, poses_of(data, PoseSet::calibration))) {
     const ContactPlace& place = placed.contacts.at(group);
-    if (place.kind != ContactKind::plane && place.kind != ContactKind::line)
-      places_m.push_back(place.frame.translation());
-    else
+    const bool on_wire = data.poses[poses.front()].contact_length_m > 0.0;
+    if (on_wire || place.kind == ContactKind::plane || place.kind == ContactKind::line)
       for (const std::size_t pose : poses) places_m.push_back(touch_of(robot, data.poses[pose]).point_m);
+    else
+      places_m.push_back(place.frame.translation());
   }
   return places_m;
 }

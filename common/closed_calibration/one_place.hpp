@@ -14,7 +14,7 @@
 
 namespace demecal::inline closed_calibration {
 
-/// Where calibration poses touch something, by the model: planes and lines wherever they are touched.
+/// Where calibration poses touch something, by the model: planes, lines and wires where the tool point then is.
 std::vector<Eigen::Vector3d> touched_places_m(const DataSet& data, const CorrectedRobot& robot);
 
 /// How far apart those places are at most, where that is less than 200 mm and no instrument measured anything.

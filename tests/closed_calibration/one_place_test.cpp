@@ -90,5 +90,16 @@ TEST(OnePlace, SaysWhatPosesAtASecondOneAdd) {
   }
 }
 
+TEST(OnePlace, OfAWireIsWhereTheToolIsNotWhereItEnds) {
+  RandomStream stream{9957};
+  KnownArm arm = perfect_arm(seven_joint_arm(), Frame::base);
+  arm.data.anchors_m = {{1.5, 0.3, -0.2}};
+  measure(arm, stream, {.noise_m = kSocketPlay_m, .position = false}, 20);
+  arm.data.anchors_m.clear();
+  arm.data.anchors_unknown = true;
+  take_wires_for_contacts(arm.data);
+  EXPECT_FALSE(one_place_m(arm.data, arm.truth)) << "the tool was all over the workspace";
+}
+
 }  // namespace
 }  // namespace demecal
