@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -83,11 +86,17 @@ std::string length_line(const LengthErrorEntry& length) {
                      length.known_mm.value_or(0.0), number(length.before_mm), number(length.error_mm));
 }
 
-std::string lengths(const std::vector<LengthErrorEntry>& all) {
+/// All of them or, of a plate with many holes, say, those that the model has farthest off.
+std::string lengths(std::vector<LengthErrorEntry> all) {
+  constexpr std::size_t kMost = 12;
   if (all.empty()) return {};
+  const auto off_mm = [](const LengthErrorEntry& one) { return std::abs(one.error_mm.value_or(0.0)); };
+  if (all.size() > kMost) std::ranges::stable_sort(all, std::greater{}, off_mm);
   std::string text =
       fmt::format("  {:<40}{:>10}{:>9}{:>9}\n", "known lengths, error in mm", "known", "before", "after");
-  for (const LengthErrorEntry& length : all) text += length_line(length);
+  for (std::size_t i = 0; i < std::min(kMost, all.size()); ++i) text += length_line(all[i]);
+  if (all.size() > kMost)
+    text += fmt::format("    and {} more, off by {:.3f} mm at most\n", all.size() - kMost, off_mm(all[kMost]));
   return text;
 }
 

@@ -131,5 +131,16 @@ TEST(Terminal, SaysOfPosesThatTouchHowFarOffTheToolMayBeAnywhere) {
   EXPECT_THAT(to_terminal(evaluation), HasSubstr("All calibration poses touch one contact"));
 }
 
+TEST(Terminal, ShowsTheWorstOfManyKnownLengths) {
+  Evaluation evaluation{made_up_report().after, {}, {}, {}, {}};
+  for (int i = 0; i < 40; ++i)
+    evaluation.length_errors.push_back({{"A" + std::to_string(i), "B"}, "accept", 100.0, 0.01, 0.5, 1e-3 * i});
+  const std::string text = to_terminal(evaluation);
+  EXPECT_THAT(text, HasSubstr("A39 to B"));
+  EXPECT_THAT(text, HasSubstr("A28 to B"));
+  EXPECT_THAT(text, Not(HasSubstr("A27 to B")));
+  EXPECT_THAT(text, HasSubstr("and 28 more, off by 0.027 mm at most"));
+}
+
 }  // namespace
 }  // namespace demecal
