@@ -58,6 +58,9 @@ TEST(UrdfArm, SaysWhereTheFrameOfTheControllerStands) {
   EXPECT_THAT(arm_between(other, {}, {}).notes, ElementsAre(AllOf(HasSubstr("[0, 0, 330] mm there, turned by 180 deg"),
                                                                   HasSubstr("--base base --tip tool0"))));
   EXPECT_THAT(arm_between(other, "base", "tool0").notes, IsEmpty());
+  const UrdfArm alone = arm_between(other, "base", {});
+  EXPECT_EQ(alone.tip, "tool0") << "the base is fixed to the link that the arm begins at";
+  EXPECT_LT((alone.drawing.joints[0].origin.xyz_m - Eigen::Vector3d(0.0, 0.0, -0.33)).norm(), 1e-8);
   const UrdfFile same = parse_urdf(with_base("<origin xyz=\"0 0 0\"/>"), "arm.urdf");
   EXPECT_THAT(arm_between(same, {}, {}).notes, IsEmpty());
 }
