@@ -129,7 +129,8 @@ class LogReader {
 
   std::vector<double> read_times() {
     std::optional<double> since_1970_s = 0.0;
-    write_times_as_seconds(table_, TableColumn(table_, times_.front()).index(), since_1970_s);
+    const TimeColumn kind = write_times_as_seconds(table_, TableColumn(table_, times_.front()).index(), since_1970_s);
+    if (!kind.remark.empty()) assume(kind.remark);
     const TableColumn column(table_, times_.front(), Quantity::time, units_);
     std::vector<double> times_s;
     for (const CsvRow& row : table_.rows) times_s.push_back(column.number(row));

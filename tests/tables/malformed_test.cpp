@@ -168,6 +168,8 @@ std::string time_complaint(const std::string& text) {
 
 TEST(MalformedTimes, AreRefusedWithTheirLine) {
   EXPECT_THAT(time_complaint("t;x\n12:00:01;1\n12:60:02;2\n"), StartsWith("p:3: '12:60:02': is no time such as"));
+  EXPECT_THAT(time_complaint("t;x\n23:59:59;1\n00:00:01;2\n23:59:58;3\n"),
+              StartsWith("p:4: '23:59:58': is more than half a day after the row before, behind a midnight"));
   EXPECT_THAT(time_complaint("t;x\n12:00:01;1\n2026-11-24 12:00:02;2\n"), HasSubstr("of another form"));
   EXPECT_THAT(time_complaint("t;x\n2026-02-29 12:00:01;1\n"), StartsWith("p:2: '2026-02-29 12:00:01'"));
   EXPECT_THAT(time_complaint("t;x\n11/12/2026 12:00:01;1\n"), StartsWith("p:2: '11/12/2026 12:00:01'"));
