@@ -24,16 +24,17 @@
 namespace demecal::inline drafting {
 namespace {
 
-/// The column's fields, where they are texts that differ and not numbers alone; otherwise nothing.
+/// The column's fields, where they are texts, most of which differ, and not numbers alone; otherwise nothing.
 std::set<std::string> point_names(const CsvTable& table, std::size_t column) {
   std::set<std::string> names;
   bool numbers = true;
   for (const CsvRow& row : table.rows) {
     const std::string& field = row.fields[column];
-    if (field.empty() || !names.insert(field).second) return {};
+    if (field.empty()) return {};
+    names.insert(field);
     numbers = numbers && parse_number(field).has_value();
   }
-  return numbers ? std::set<std::string>{} : names;
+  return numbers || 2 * names.size() <= table.rows.size() ? std::set<std::string>{} : names;
 }
 
 /// Whether most of the fewer names are among the others.

@@ -77,6 +77,19 @@ TEST(Drafts, JoinByNameAloneWhereMostNamesAgree) {
   }
 }
 
+TEST(Drafts, JoinByNameAloneWhereANameStandsTwice) {
+  for (const char* heading : {"name", "Bezeichnung"}) {
+    const TemporaryFolder folder;
+    const auto joints =
+        folder.write("joints.csv", std::string(heading) + ",q1_deg,q2_deg\np1,1,2\np2,2,3\np2,4,5\np4,5,6\n");
+    const auto points =
+        folder.write("points.csv", std::string(heading) + ",x_mm,y_mm,z_mm\np1,3,4,5\np2,4,5,6\np3,5,6,7\np4,6,7,8\n");
+    const auto drafts = draft_data_sets(read_given_tables({joints, points}, 2, {}), folder.path(), "robot.yaml", 2, {});
+    ASSERT_EQ(drafts.size(), 1U) << heading << ": joined by order, the mistake would be hidden";
+    EXPECT_THAT(drafts.front().text, HasSubstr("join: {by: name}"));
+  }
+}
+
 TEST(Drafts, NameColumnsAsTheFileDoes) {
   const TemporaryFolder folder;
   const auto table = folder.write("points.csv", "q1_deg,q2_deg,x,y,z\n1,2,300,4,5\n2,3,400,5,6\n");
