@@ -78,7 +78,8 @@ class LogReader {
         nanoseconds->fail("counts from whole seconds: name their column too, as columns.time");
       if (nanoseconds) times_.push_back(read_column(*nanoseconds));
     }
-    const GuessedColumns guess = guess_columns(table_, robot_.chain.joints.size(), joint_names(robot_));
+    const GuessedColumns guess =
+        guess_columns(table_, robot_.chain.joints.size(), joint_names(robot_), leading_rails(robot_.chain));
     if (joints_.empty()) {
       for (const std::size_t column : guess.joints) joints_.push_back(guessed(column));
       require_no_more(count_joint_columns(table_));
