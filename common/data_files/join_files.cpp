@@ -85,14 +85,21 @@ std::vector<JoinKeys> pose_names(const std::vector<PoseFile>& files, const YamlN
   return keys;
 }
 
+/// A column of times in seconds; what is to be said of it is appended.
+TimeColumn times_as_seconds(CsvTable& table, const ColumnName& name, std::optional<double>& origin_s,
+                            std::vector<std::string>& sentences) {
+  TimeColumn kind = write_times_as_seconds(table, TableColumn(table, name).index(), origin_s);
+  if (!kind.remark.empty()) sentences.push_back(table.file + ": " + kind.remark);
+  return kind;
+}
+
 /// Times of all files in seconds of one kind.
 class Clocks {
  public:
-  explicit Clocks(bool offset_known) : offset_known_(offset_known) {}
+  Clocks(bool offset_known, std::vector<std::string>& sentences) : offset_known_(offset_known), sentences_(sentences) {}
 
   JoinKeys read(PoseFile& file, const ColumnName& name, const AssumedUnits& units) {
-    const std::size_t index = TableColumn(file.table, name).index();
-    const TimeColumn kind = write_times_as_seconds(file.table, index, origin_s_);
+    const TimeColumn kind = times_as_seconds(file.table, name, origin_s_, sentences_);
     if (first_ && offset_known_ &&
         (kind.stamps != first_->stamps || kind.dated != first_->dated || kind.zoned != first_->zoned)) {
       throw InputError(
@@ -112,14 +119,15 @@ class Clocks {
 
  private:
   bool offset_known_;
+  std::vector<std::string>& sentences_;
   std::optional<double> origin_s_;
   std::optional<TimeColumn> first_;
   std::string first_file_;
 };
 
 std::vector<JoinKeys> times_of(std::vector<PoseFile>& files, const YamlNode& by, const AssumedUnits& units,
-                               bool offset_known) {
-  Clocks clocks(offset_known);
+                               bool offset_known, std::vector<std::string>& sentences) {
+  Clocks clocks(offset_known, sentences);
   std::vector<JoinKeys> keys;
   for (PoseFile& file : files) keys.push_back(clocks.read(file, key_column(file, file.time, "time", by), units));
   return keys;
@@ -157,7 +165,7 @@ class TimeJoin {
       : node_(node), files_(files), columns_(columns), units_(units), chain_(chain) {}
 
   JoinedRows run(const JoinRule& rule, std::vector<std::string>& sentences) {
-    const std::vector<JoinKeys> keys = times_of(files_, node_.at("by"), units_, rule.offset_s.has_value());
+    const std::vector<JoinKeys> keys = times_of(files_, node_.at("by"), units_, rule.offset_s.has_value(), sentences);
     const std::size_t lead = leading_file(columns_), arm = columns_.joints.front().table;
     const ClockOffset offset =
         rule.offset_s ? ClockOffset{.offset_s = *rule.offset_s} : found_offset(keys, lead, arm, rule.within_s);
@@ -250,8 +258,7 @@ JoinedTables join_files(const YamlNode& root, std::vector<PoseFile>& files, cons
   if (files.size() == 1) {
     if (node) node->fail("", "joins the rows of several files, and `poses` names one");
     std::optional<double> origin_s;
-    if (columns.time)
-      write_times_as_seconds(files[0].table, TableColumn(files[0].table, *columns.time).index(), origin_s);
+    if (columns.time) times_as_seconds(files[0].table, *columns.time, origin_s, sentences);
     return alone(files[0].table);
   }
   if (!node) {
@@ -263,9 +270,8 @@ JoinedTables join_files(const YamlNode& root, std::vector<PoseFile>& files, cons
   JoinedRows rows;
   std::vector<std::string> warnings;
   if (columns.time && rule.by != JoinBy::time) {
-    CsvTable& table = files[columns.time->table].table;
     std::optional<double> origin_s;
-    write_times_as_seconds(table, TableColumn(table, *columns.time).index(), origin_s);
+    times_as_seconds(files[columns.time->table].table, *columns.time, origin_s, warnings);
   }
   switch (rule.by) {
     case JoinBy::name:

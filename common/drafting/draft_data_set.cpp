@@ -52,21 +52,37 @@ double largest_number(const CsvTable& table, const std::vector<std::size_t>& col
 struct AssumedUnit {
   std::string key, unit, sentence;
 };
-std::optional<AssumedUnit> assumed_unit(const std::vector<GivenTable>& tables, const std::string& key,
-                                        Quantity quantity, std::vector<std::size_t> GuessedColumns::*columns) {
+std::optional<AssumedUnit> assumed_unit(const GivenTable& given, const std::string& key, Quantity quantity,
+                                        const std::vector<std::size_t>& columns) {
+  const CsvTable& table = given.read.table;
+  if (std::ranges::all_of(columns, [&](std::size_t column) { return states_unit(table, column, quantity); })) return {};
+  const double most = largest_number(table, columns);
+  const std::string unit(likely_unit(quantity, most));
+  return AssumedUnit{key, unit,
+                     "units of " + in_words(table, columns) + " are taken to be " + unit + ", since the largest is " +
+                         number_text(std::round(1e3 * most) / 1e3) + ": check `units`"};
+}
+
+/// The units of angles and of lengths that no heading states. Throws InputError where those of rails and of positions
+/// seem to differ, as no data set can say.
+std::vector<AssumedUnit> assumed_units(const std::vector<GivenTable>& tables, std::size_t rails) {
+  std::optional<AssumedUnit> angle, length, rail;
   for (const GivenTable& given : tables) {
-    const auto& group = given.columns.*columns;
-    const CsvTable& table = given.read.table;
-    if (group.empty() ||
-        std::ranges::all_of(group, [&](std::size_t column) { return states_unit(table, column, quantity); }))
-      continue;
-    const double most = largest_number(table, group);
-    const std::string unit(likely_unit(quantity, most));
-    return AssumedUnit{key, unit,
-                       "units of " + in_words(table, group) + " are taken to be " + unit + ", since the largest is " +
-                           number_text(std::round(1e3 * most) / 1e3) + ": check `units`"};
+    const std::vector<std::size_t>& joints = given.columns.joints;
+    const auto carried = joints.begin() + static_cast<std::ptrdiff_t>(std::min(rails, joints.size()));
+    if (!angle) angle = assumed_unit(given, "angle", Quantity::angle, {carried, joints.end()});
+    if (!rail) rail = assumed_unit(given, "length", Quantity::length, {joints.begin(), carried});
+    if (!length) length = assumed_unit(given, "length", Quantity::length, given.columns.position);
+    if (rail && length && rail->unit != length->unit)
+      throw InputError({given.path.string(), given.read.table.header_line}, "",
+                       "states no units, and seems to have several: " + rail->sentence + ", and " + length->sentence +
+                           ". Write the unit of the rail into its heading, as in `E1 [" + rail->unit + "]`");
   }
-  return std::nullopt;
+  std::vector<AssumedUnit> assumed;
+  for (const auto& one : {angle, rail && !length ? rail : length})
+    if (one) assumed.push_back(*one);
+  if (rail && length) assumed.back().sentence += "; " + rail->sentence;
+  return assumed;
 }
 
 /// Columns that are called as uncertainties of the position may be, and can be that.
@@ -198,7 +214,7 @@ void require_columns(const std::vector<GivenTable>& tables, bool found, const st
 
 std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_tables,
                                           const std::filesystem::path& folder, const std::string& robot,
-                                          std::size_t joints, const ToldLayout& told) {
+                                          std::size_t joints, const ToldLayout& told, std::size_t rails) {
   std::vector<GivenTable> tables = given_tables;
   std::vector<std::string> assumed;
   keep_one_source(tables, &GuessedColumns::joints, assumed, "joints");
@@ -244,15 +260,11 @@ std::vector<DataSetDraft> draft_data_sets(const std::vector<GivenTable>& given_t
               "    columns:\n" + columns_text(given, "      ");
     }
   }
-  const auto angle = assumed_unit(tables, "angle", Quantity::angle, &GuessedColumns::joints);
-  const auto length = assumed_unit(tables, "length", Quantity::length, &GuessedColumns::position);
-  if (angle || length) {
-    body += "units:                   # of columns whose headings state none\n";
-    for (const auto& unit : {angle, length}) {
-      if (!unit) continue;
-      body += "  " + unit->key + ": " + unit->unit + "\n";
-      assumed.push_back(unit->sentence);
-    }
+  const std::vector<AssumedUnit> units = assumed_units(tables, rails);
+  if (!units.empty()) body += "units:                   # of columns whose headings state none\n";
+  for (const AssumedUnit& unit : units) {
+    body += "  " + unit.key + ": " + unit.unit + "\n";
+    assumed.push_back(unit.sentence);
   }
   for (const GivenTable& given : tables) {
     add_assumed_circumstances(given, assumed);

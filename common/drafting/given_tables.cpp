@@ -24,16 +24,17 @@
 namespace demecal::inline drafting {
 namespace {
 
-/// The column's fields, where they are texts that differ and not numbers alone; otherwise nothing.
+/// The column's fields, where they are texts, most of which differ, and not numbers alone; otherwise nothing.
 std::set<std::string> point_names(const CsvTable& table, std::size_t column) {
   std::set<std::string> names;
   bool numbers = true;
   for (const CsvRow& row : table.rows) {
     const std::string& field = row.fields[column];
-    if (field.empty() || !names.insert(field).second) return {};
+    if (field.empty()) return {};
+    names.insert(field);
     numbers = numbers && parse_number(field).has_value();
   }
-  return numbers ? std::set<std::string>{} : names;
+  return numbers || 2 * names.size() <= table.rows.size() ? std::set<std::string>{} : names;
 }
 
 /// Whether most of the fewer names are among the others.
@@ -75,15 +76,21 @@ bool most_names_agree(const std::vector<GivenTable>& tables) {
 }
 
 std::vector<GivenTable> read_given_tables(const std::vector<std::filesystem::path>& files, std::size_t joints,
-                                          const ToldLayout& told, const std::vector<std::string>& joint_names) {
+                                          const ToldLayout& told, const std::vector<std::string>& joint_names,
+                                          std::size_t rails) {
   std::vector<GivenTable> tables;
   for (const std::filesystem::path& path : files) {
     GivenTable& given = tables.emplace_back(GivenTable{path, read_table(read_file(path), path.string(), told), {}});
     const std::size_t count = joints > 0 ? joints : count_joint_columns(given.read.table);
-    given.columns = guess_columns(given.read.table, count, joint_names);
+    given.columns = guess_columns(given.read.table, count, joint_names, rails);
   }
   find_names(tables);
   return tables;
+}
+
+std::size_t leading_rails(const Chain& chain) {
+  return static_cast<std::size_t>(
+      std::ranges::find_if(chain.joints, [](const Joint& joint) { return is_revolute(joint); }) - chain.joints.begin());
 }
 
 std::vector<std::string> joint_names(const Robot& robot) {
@@ -94,7 +101,8 @@ std::vector<std::string> joint_names(const Robot& robot) {
 }
 
 DataSet read_pendant_poses(const std::filesystem::path& path, const Robot& robot) {
-  const GivenTable given = read_given_tables({path}, robot.chain.joints.size(), {}, joint_names(robot)).front();
+  const GivenTable given =
+      read_given_tables({path}, robot.chain.joints.size(), {}, joint_names(robot), leading_rails(robot.chain)).front();
   const CsvTable& table = given.read.table;
   const auto named = [&](const std::vector<std::size_t>& group) {
     std::vector<ColumnName> names;

@@ -78,7 +78,8 @@ class LogReader {
         nanoseconds->fail("counts from whole seconds: name their column too, as columns.time");
       if (nanoseconds) times_.push_back(read_column(*nanoseconds));
     }
-    const GuessedColumns guess = guess_columns(table_, robot_.chain.joints.size(), joint_names(robot_));
+    const GuessedColumns guess =
+        guess_columns(table_, robot_.chain.joints.size(), joint_names(robot_), leading_rails(robot_.chain));
     if (joints_.empty()) {
       for (const std::size_t column : guess.joints) joints_.push_back(guessed(column));
       require_no_more(count_joint_columns(table_));
@@ -129,7 +130,8 @@ class LogReader {
 
   std::vector<double> read_times() {
     std::optional<double> since_1970_s = 0.0;
-    write_times_as_seconds(table_, TableColumn(table_, times_.front()).index(), since_1970_s);
+    const TimeColumn kind = write_times_as_seconds(table_, TableColumn(table_, times_.front()).index(), since_1970_s);
+    if (!kind.remark.empty()) assume(kind.remark);
     const TableColumn column(table_, times_.front(), Quantity::time, units_);
     std::vector<double> times_s;
     for (const CsvRow& row : table_.rows) times_s.push_back(column.number(row));

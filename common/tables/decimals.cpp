@@ -41,6 +41,22 @@ bool may_group(const Decimals& number) {
          number.before.front() != '0';
 }
 
+/// The sign before the decimals of a number whose thousands stand apart by the other one, "1.542,66" or "1,542.66";
+/// nothing of any other field.
+std::optional<char> sign_behind_thousands(std::string_view field) {
+  if (!field.empty() && (field.front() == '+' || field.front() == '-')) field.remove_prefix(1);
+  const std::size_t last = field.find_last_of(".,"), first = field.find_first_of(".,");
+  if (last == first) return std::nullopt;
+  const char sign = field[last], apart = sign == ',' ? '.' : ',';
+  const std::string_view whole = field.substr(0, last), decimals = field.substr(last + 1);
+  if (first == 0 || first > 3 || field.front() == '0' || decimals.empty() || !is_digits(decimals) ||
+      !is_digits(whole.substr(0, first)))
+    return std::nullopt;
+  for (std::string_view rest = whole.substr(first); !rest.empty(); rest.remove_prefix(4))
+    if (rest.size() < 4 || rest.front() != apart || !is_digits(rest.substr(1, 3))) return std::nullopt;
+  return sign;
+}
+
 struct NumberPlace {
   std::size_t line = 0;
   std::string field;
@@ -57,17 +73,35 @@ struct NumberPlace {
 
 }  // namespace
 
+bool has_thousands_and_decimals(std::string_view field) {
+  return sign_behind_thousands(field).has_value();
+}
+
+bool take_thousands_together(std::vector<CsvRow>& rows, char decimal) {
+  bool any = false;
+  for (CsvRow& row : rows) {
+    for (std::string& field : row.fields) {
+      if (sign_behind_thousands(field) != decimal) continue;
+      std::erase(field, decimal == ',' ? '.' : ',');
+      any = true;
+    }
+  }
+  return any;
+}
+
 char decimal_sign(const std::vector<CsvRow>& rows, const std::string& file) {
   std::optional<NumberPlace> comma, point;
   std::size_t commas = 0, points = 0;
   bool surely = false;
   for (const CsvRow& row : rows) {
     for (const std::string& field : row.fields) {
-      if (const auto number = digits_about(field, ',')) {
+      const std::optional<char> told = sign_behind_thousands(field);
+      const auto number = digits_about(field, ',');
+      if (number || told == ',') {
         ++commas;
         if (!comma) comma = NumberPlace{row.line, field};
-        surely = surely || !may_group(*number);
-      } else if (digits_about(field, '.')) {
+        surely = surely || !number || !may_group(*number);
+      } else if (digits_about(field, '.') || told == '.') {
         ++points;
         if (!point) point = NumberPlace{row.line, field};
       }

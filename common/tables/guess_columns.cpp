@@ -73,13 +73,16 @@ class NamedColumns {
   std::vector<std::string> names_;
 };
 
-constexpr std::array<std::string_view, 12> kJointStems{
-    "q",       "j",          "joint",         "axis",     "a", "theta",
-    "actualq", "jointangle", "jointposition", "position", "t", "fieldposition"};
+constexpr std::array<std::string_view, 16> kJointStems{
+    "q",       "j",          "joint",         "axis",     "a", "theta",         "rax",   "robax",
+    "actualq", "jointangle", "jointposition", "position", "t", "fieldposition", "achse", "gelenk"};
+constexpr std::array<std::string_view, 4> kJointEndings{"", "angle", "position", "pos"};
 
-std::vector<std::string> numbered_names(std::string_view stem, std::size_t from, std::size_t count) {
+std::vector<std::string> numbered_names(std::string_view stem, std::size_t from, std::size_t count,
+                                        std::string_view ending = "") {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < count; ++i) names.push_back(std::string(stem) + std::to_string(from + i));
+  for (std::size_t i = 0; i < count; ++i)
+    names.push_back(std::string(stem) + std::to_string(from + i) + std::string(ending));
   return names;
 }
 
@@ -101,15 +104,40 @@ std::vector<std::size_t> prefixed_joints(const NamedColumns& named, std::size_t 
 
 /// Joints counted from one, or from zero as recorders of UR arms do.
 std::vector<std::size_t> joint_columns(const NamedColumns& named, std::size_t joints) {
-  for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
-    for (const std::string_view stem : kJointStems) {
-      auto columns = named.all_of(numbered_names(stem, from, joints));
-      if (!columns.empty()) return columns;
+  for (const std::string_view ending : kJointEndings) {
+    for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
+      for (const std::string_view stem : kJointStems) {
+        auto columns = named.all_of(numbered_names(stem, from, joints, ending));
+        if (!columns.empty()) return columns;
+      }
     }
   }
   for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
     auto columns = prefixed_joints(named, from, joints);
     if (!columns.empty()) return columns;
+  }
+  return {};
+}
+
+/// Rails under the names of external axes, before the joints of the arm that they carry.
+std::vector<std::size_t> joints_on_rails(const NamedColumns& named, std::size_t joints, std::size_t rails) {
+  if (rails == 0 || rails >= joints) return {};
+  const std::vector<std::size_t> carried = joint_columns(named, joints - rails);
+  if (carried.empty()) return {};
+  std::vector<std::vector<std::string>> choices;
+  for (const std::string_view stem : {"e", "eax", "extax", "ext", "externalaxis", "zusatzachse"})
+    choices.push_back(numbered_names(stem, 1, rails));
+  for (const std::string stem : {"eax", "extax"}) {  // as RAPID names them
+    std::vector<std::string>& names = choices.emplace_back();
+    for (std::size_t rail = 0; rail < rails; ++rail) names.push_back(stem + static_cast<char>('a' + rail));
+  }
+  for (const char* alone : {"rail", "track", "lineartrack", "linearaxis", "linearachse", "lineareinheit"})
+    if (rails == 1) choices.push_back({alone});
+  for (const std::vector<std::string>& names : choices) {
+    std::vector<std::size_t> columns = named.all_of(names);
+    if (columns.empty()) continue;
+    columns.insert(columns.end(), carried.begin(), carried.end());
+    return columns;
   }
   return {};
 }
@@ -123,13 +151,15 @@ std::vector<std::size_t> three_columns(const NamedColumns& named,
   return {};
 }
 
-GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names) {
+GuessedColumns by_names(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names,
+                        std::size_t rails) {
   const NamedColumns named(table);
   GuessedColumns guess;
   std::vector<std::string> plain;
   for (const std::string& name : joint_names) plain.push_back(plain_name(name));
   if (!plain.empty()) guess.joints = named.all_of(plain);
   if (guess.joints.empty()) guess.joints = joint_columns(named, joints);
+  if (guess.joints.empty()) guess.joints = joints_on_rails(named, joints, rails);
   // Beside columns that say so themselves, bare ones are what was wanted rather than what was measured.
   guess.position = three_columns(named, {{"measuredx", "measuredy", "measuredz"},
                                          {"xmeasured", "ymeasured", "zmeasured"},
@@ -194,8 +224,9 @@ GuessedColumns by_contents(const CsvTable& table, std::size_t joints) {
 
 }  // namespace
 
-GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names) {
-  return table.header_line > 0 ? by_names(table, joints, joint_names) : by_contents(table, joints);
+GuessedColumns guess_columns(const CsvTable& table, std::size_t joints, const std::vector<std::string>& joint_names,
+                             std::size_t rails) {
+  return table.header_line > 0 ? by_names(table, joints, joint_names, rails) : by_contents(table, joints);
 }
 
 std::string_view likely_unit(Quantity quantity, double largest) {

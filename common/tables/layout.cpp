@@ -164,7 +164,7 @@ std::vector<std::string> fields_of(std::string_view line, Delimiter delimiter) {
 }
 
 bool is_numeric(std::string_view field) {
-  if (parse_number(field)) return true;
+  if (parse_number(field) || has_thousands_and_decimals(field)) return true;
   if (field.find('.') != std::string_view::npos || std::ranges::count(field, ',') != 1) return false;
   std::string pointed(field);
   std::ranges::replace(pointed, ',', '.');

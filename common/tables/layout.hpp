@@ -41,7 +41,7 @@ std::vector<TextLine> lines_of(std::string_view text);
 /// it.
 std::vector<std::string> fields_of(std::string_view line, Delimiter delimiter);
 
-/// Whether the field is a number, with a point or with a comma.
+/// Whether the field is a number, with a point or with a comma, its thousands apart or not.
 bool is_numeric(std::string_view field);
 
 struct Layout {
@@ -58,6 +58,12 @@ std::optional<Layout> recognise_layout(const std::vector<TextLine>& lines, const
 /// '.' or ',', by most numbers of the rows: those with the other sign are no numbers then. Throws InputError where both
 /// are as many, and where every comma may as well separate thousands (1,234).
 char decimal_sign(const std::vector<CsvRow>& rows, const std::string& file);
+
+/// Whether the field is a number with its thousands apart and decimals behind: "1.542,66" or "1,542.66".
+bool has_thousands_and_decimals(std::string_view field);
+
+/// Takes the separators of thousands out of such numbers; whether there were any. `decimal`: the sign of the decimals.
+bool take_thousands_together(std::vector<CsvRow>& rows, char decimal);
 
 /// Throws InputError where rows of whole numbers between commas may be half as many numbers with decimal commas.
 void refuse_split_decimals(const std::vector<CsvRow>& rows, const std::string& file);

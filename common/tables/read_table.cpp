@@ -153,8 +153,10 @@ RecognisedTable read_table(std::string_view bytes, const std::string& file, cons
   CsvTable table{.file = file, .header_line = headings.line, .columns = {}, .rows = std::move(rows)};
   table.decimal = known.decimal.value_or('.');
   if (!known.decimal) table.decimal = decimal_sign(table.rows, file);
+  const bool thousands = take_thousands_together(table.rows, table.decimal);
   set_columns(headings, layout->width, table);
-  const std::string found = description(table, *layout, headings, decoded.encoding);
+  const std::string found =
+      description(table, *layout, headings, decoded.encoding) + (thousands ? ", separators of thousands left out" : "");
   return {std::move(table), found};
 }
 

@@ -148,6 +148,7 @@ std::optional<TimeStamp> parse_time_stamp(std::string_view text) {
 
 TimeColumn write_times_as_seconds(CsvTable& table, std::size_t column, std::optional<double>& origin_s) {
   TimeColumn found;
+  double before_s = 0.0, days_s = 0.0;
   for (CsvRow& row : table.rows) {
     std::string& field = row.fields[column];
     const auto stamp = parse_time_stamp(field);
@@ -157,11 +158,23 @@ TimeColumn write_times_as_seconds(CsvTable& table, std::size_t column, std::opti
       throw InputError({table.file, row.line}, field,
                        "is no time such as 2026-11-24T19:39:57.25 or 24.11.2026 19:39:57, as the first row has");
     }
-    if (first) found = {true, stamp->dated, stamp->zoned};
+    if (first) found = {.stamps = true, .dated = stamp->dated, .zoned = stamp->zoned};
     if (stamp->dated != found.dated || stamp->zoned != found.zoned)
       throw InputError({table.file, row.line}, field, "is a time of another form than the first row's");
     if (stamp->dated && !origin_s) origin_s = kDay_s * std::floor(stamp->seconds / kDay_s);
-    field = number_text(stamp->dated ? stamp->seconds - *origin_s : stamp->seconds);
+    if (!stamp->dated && days_s > 0.0 && stamp->seconds > before_s + 0.5 * kDay_s) {
+      throw InputError({table.file, row.line}, field,
+                       "is more than half a day after the row before, behind a midnight: without dates it is not told "
+                       "whether rows are out of order; export them in the order of time, or with dates");
+    }
+    if (!stamp->dated && stamp->seconds < before_s - 0.5 * kDay_s) {
+      days_s += kDay_s;
+      if (found.remark.empty())
+        found.remark = "in line " + std::to_string(row.line) + " the clock falls to " + field +
+                       ": it is taken to have passed midnight, and times count on from there";
+    }
+    before_s = stamp->seconds;
+    field = number_text(stamp->dated ? stamp->seconds - *origin_s : stamp->seconds + days_s);
     if (table.decimal == ',') std::ranges::replace(field, '.', ',');
   }
   if (!table.units.empty()) table.units[column] = "s";

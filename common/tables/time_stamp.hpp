@@ -28,11 +28,13 @@ struct TimeColumn {
   bool stamps = false;  ///< and no plain numbers
   bool dated = false;
   bool zoned = false;
+  std::string remark{};  ///< for people: where a clock without dates passed midnight; empty where none did
 };
 
 /// Makes a column of time stamps one of seconds; one of numbers stays as it is. Dated stamps count from `origin_s`,
-/// which becomes the midnight before the first of them where it is nothing yet. Throws InputError where a field is
-/// neither a number nor a time, or not of the first row's form.
+/// which becomes the midnight before the first of them where it is nothing yet. Stamps without dates count on where
+/// they fall by more than half a day from one row to the next. Throws InputError where a field is neither a number nor
+/// a time, or not of the first row's form.
 TimeColumn write_times_as_seconds(CsvTable& table, std::size_t column, std::optional<double>& origin_s);
 
 }  // namespace demecal::inline tables

@@ -45,9 +45,13 @@ std::string attribute_text(const char* name, const Eigen::Vector3d& values) {
   return std::string(name) + "=\"" + three_numbers(values) + '"';
 }
 
-void replace_attribute(const XmlElement& origin, const char* name, const Eigen::Vector3d& old_values,
-                       const Eigen::Vector3d& values, std::vector<ByteChange>& replacements) {
-  if ((values - old_values).cwiseAbs().maxCoeff() <= kSame) return;
+/// Whether the places are turned alike: near a pitch of 90 deg by whichever roll and yaw.
+bool same_turn(const Origin& one, const Origin& other) {
+  return (pose_of(one).linear() - pose_of(other).linear()).cwiseAbs().maxCoeff() <= kSame;
+}
+
+void replace_attribute(const XmlElement& origin, const char* name, const Eigen::Vector3d& values,
+                       std::vector<ByteChange>& replacements) {
   if (const XmlAttribute* written = origin.attribute(name)) {
     replacements.push_back({written->begin, written->end, three_numbers(values)});
   } else {
@@ -58,12 +62,14 @@ void replace_attribute(const XmlElement& origin, const char* name, const Eigen::
 
 void replace_origin(const NewOrigin& change, std::vector<ByteChange>& replacements) {
   const Origin &old_origin = change.joint->origin, &origin = change.origin;
+  const bool moved = (origin.xyz_m - old_origin.xyz_m).cwiseAbs().maxCoeff() > kSame;
+  const bool turned = !same_turn(origin, old_origin);
   if (const XmlElement* written = change.joint->element.child("origin")) {
-    replace_attribute(*written, "xyz", old_origin.xyz_m, origin.xyz_m, replacements);
-    replace_attribute(*written, "rpy", old_origin.rpy_rad, origin.rpy_rad, replacements);
+    if (moved) replace_attribute(*written, "xyz", origin.xyz_m, replacements);
+    if (turned) replace_attribute(*written, "rpy", origin.rpy_rad, replacements);
     return;
   }
-  if (origin.xyz_m.cwiseAbs().maxCoeff() <= kSame && origin.rpy_rad.cwiseAbs().maxCoeff() <= kSame) return;
+  if (!moved && !turned) return;
   const std::size_t at = change.joint->element.tag_end;
   replacements.push_back(
       {at, at, "<origin " + attribute_text("xyz", origin.xyz_m) + ' ' + attribute_text("rpy", origin.rpy_rad) + "/>"});

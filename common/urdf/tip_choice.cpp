@@ -103,9 +103,14 @@ std::string root_link(const UrdfFile& urdf) {
 }
 
 std::string tip_link(const UrdfFile& urdf, const std::string& base, std::vector<std::string>& notes) {
-  const std::vector<Leaf> all = leaves_below(urdf, base);
+  std::vector<Leaf> all = leaves_below(urdf, base);
+  // A link beside the arm, as ROS calls the controller's frame, is fixed to one that the arm begins at.
+  const UrdfJoint* up = urdf.joint_to(base);
+  for (; all.empty() && up != nullptr && !moves(*up); up = urdf.joint_to(up->parent))
+    all = leaves_below(urdf, up->parent);
   if (all.empty())
-    throw InputError({urdf.file, urdf.link(base).line}, base, "is a link with no moving joint beyond it");
+    throw InputError({urdf.file, urdf.link(base).line}, base,
+                     "is a link with no moving joint beyond it or a link that it is fixed to");
   std::vector<Leaf> ends;
   std::ranges::copy_if(all, std::back_inserter(ends), [&](const Leaf& leaf) { return !is_on_the_way(leaf, all); });
   if (std::ranges::any_of(ends, [&](const Leaf& end) { return ends_in_gripper(urdf, end); })) ask(urdf, all);

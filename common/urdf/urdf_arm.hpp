@@ -37,9 +37,10 @@ std::vector<const UrdfJoint*> joints_down(const UrdfFile& urdf, const std::strin
 /// The one link that is the child of no joint. Throws InputError that names them where there are several.
 std::string root_link(const UrdfFile& urdf);
 
-/// The link at which the arm from `base` ends: behind all other joints, where several links are
-/// fixed there, tool0 or the only one that does not stand where the last moving link does. A sentence on that choice is
-/// appended to `notes`. Throws InputError that names the links where several arms begin there.
+/// The link at which the arm from `base`, or from the nearest link that this is fixed to, ends: behind all other
+/// joints, where several links are fixed there, tool0 or the only one that does not stand where the last moving link
+/// does. A sentence on that choice is appended to `notes`. Throws InputError that names the links where several arms
+/// begin there.
 std::string tip_link(const UrdfFile& urdf, const std::string& base, std::vector<std::string>& notes);
 
 struct NewOrigin {

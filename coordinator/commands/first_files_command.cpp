@@ -230,8 +230,9 @@ ExitCode run_new(const NewRequest& request) {
   const ToldLayout told = told_layout(request);
   const std::vector<std::filesystem::path> files(request.poses.begin(), request.poses.end());
   require_no_programs(files);
-  const std::vector<GivenTable> tables = read_given_tables(files, joints, told, joint_names(robot));
-  const std::vector<DataSetDraft> drafts = draft_data_sets(tables, request.folder, "robot.yaml", joints, told);
+  const std::size_t rails = leading_rails(robot.chain);
+  const std::vector<GivenTable> tables = read_given_tables(files, joints, told, joint_names(robot), rails);
+  const std::vector<DataSetDraft> drafts = draft_data_sets(tables, request.folder, "robot.yaml", joints, told, rails);
   const bool had_folder = std::filesystem::exists(request.folder);
   make_writable(request.folder, kNewFiles, request.force);
   EarlierFiles earlier(request.folder, had_folder);  // put back behind `written`, which notes what is there

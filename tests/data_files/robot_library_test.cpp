@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 #include <string>
@@ -12,6 +13,7 @@
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"
 #include "yaml/files.hpp"
+#include "yaml/yaml_node.hpp"
 
 namespace demecal {
 namespace {
@@ -103,6 +105,37 @@ TEST_P(LibraryArms, StandWithinAHundredthOfAMillimetreOfTheirDescription) {
     const Eigen::Isometry3d one = forward(robot.chain, q), other = forward(described, q);
     EXPECT_LT((one.translation() - other.translation()).norm(), 1e-5);
     EXPECT_LT((one.linear() - other.linear()).cwiseAbs().maxCoeff(), 1e-5);
+  }
+}
+
+/// The file's text with the base that its remark gives for positions as the controller has them; empty where it has
+/// none.
+std::string as_controllers_count(std::string text) {
+  const std::string remark = "\n# base: ", key = "\nbase: ";
+  const std::size_t given = text.find(remark), own = text.find(key);
+  if (given == std::string::npos) return {};
+  const std::string base = text.substr(given + remark.size(), text.find('\n', given + 1) - given - remark.size());
+  return text.replace(own + key.size(), text.find('\n', own + 1) - own - key.size(), base);
+}
+
+TEST_P(LibraryArms, SayWhereTheControllerCountsFromWhereThatIsElsewhere) {
+  const std::filesystem::path source = DEMECAL_SOURCE_DIR;
+  const auto file = source / "../shared/data/urdf" / (std::string(GetParam().urdf) + ".urdf");
+  if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
+  const UrdfFile urdf = parse_urdf(read_file(file), file);
+  const UrdfArm arm =
+      arm_between(urdf, {}, GetParam().tip == nullptr ? std::nullopt : std::optional<std::string>(GetParam().tip));
+  const bool elsewhere = std::ranges::any_of(
+      arm.notes, [](const auto& note) { return note.find("controllers count") != std::string::npos; });
+  const std::string text = as_controllers_count(read_file(kLibrary / (std::string(GetParam().robot) + ".yaml")));
+  ASSERT_EQ(!text.empty(), elsewhere);
+  if (!elsewhere) return;
+  const Chain counted = equivalent_chain(arm_between(urdf, "base", arm.tip).drawing).chain;
+  const Robot robot = read_robot(parse_yaml(text, "robot.yaml").with_version("robot", 1));
+  RandomStream stream{1852};
+  for (int i = 0; i < 20; ++i) {
+    const JointVector q = random_joints(stream, robot.chain);
+    EXPECT_LT((forward(robot.chain, q).matrix() - forward(counted, q).matrix()).cwiseAbs().maxCoeff(), 1e-5);
   }
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "../config/temporary_folder.hpp"
+#include "../errors/complaint.hpp"
 
 namespace demecal {
 namespace {
@@ -75,6 +76,34 @@ TEST(Drafts, JoinByNameAloneWhereMostNamesAgree) {
     ASSERT_EQ(ways(last).size(), 1U) << last;
     EXPECT_THAT(ways(last).front().text, HasSubstr("join: {by: name}"));
   }
+}
+
+TEST(Drafts, JoinByNameAloneWhereANameStandsTwice) {
+  for (const char* heading : {"name", "Bezeichnung"}) {
+    const TemporaryFolder folder;
+    const auto joints =
+        folder.write("joints.csv", std::string(heading) + ",q1_deg,q2_deg\np1,1,2\np2,2,3\np2,4,5\np4,5,6\n");
+    const auto points =
+        folder.write("points.csv", std::string(heading) + ",x_mm,y_mm,z_mm\np1,3,4,5\np2,4,5,6\np3,5,6,7\np4,6,7,8\n");
+    const auto drafts = draft_data_sets(read_given_tables({joints, points}, 2, {}), folder.path(), "robot.yaml", 2, {});
+    ASSERT_EQ(drafts.size(), 1U) << heading << ": joined by order, the mistake would be hidden";
+    EXPECT_THAT(drafts.front().text, HasSubstr("join: {by: name}"));
+  }
+}
+
+TEST(Drafts, TakeTheUnitOfARailFromWhatItDrives) {
+  const auto draft = [](const std::string& headings, const std::string& rows) {
+    const TemporaryFolder folder;
+    const auto table = folder.write("log.csv", headings + "\n" + rows);
+    return draft_data_sets(read_given_tables({table}, 3, {}, {}, 1), folder.path(), "robot.yaml", 3, {}, 1).front();
+  };
+  const std::string rows = "1.5,10,20,700,800,900\n2.5,11,90,701,700,800\n";
+  const auto headed = draft("E1_m,A1,A2,x_mm,y_mm,z_mm", rows);
+  EXPECT_THAT(headed.text, HasSubstr("joints: [E1_m, A1, A2]"));
+  EXPECT_THAT(headed.text, AllOf(HasSubstr("  angle: deg\n"), Not(HasSubstr("  length: "))));
+  EXPECT_THAT(draft("E1,A1,A2,x_mm,y_mm,z_mm", rows).text, AllOf(HasSubstr("angle: deg"), HasSubstr("length: m\n")));
+  EXPECT_THAT(complaint([&] { draft("E1,A1,A2,x,y,z", rows); }),
+              AllOf(HasSubstr("log.csv:1"), HasSubstr("Write the unit of the rail into its heading, as in `E1 [m]`")));
 }
 
 TEST(Drafts, NameColumnsAsTheFileDoes) {

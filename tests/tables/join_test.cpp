@@ -223,5 +223,16 @@ TEST(TimeStamps, BecomeAColumnOfSecondsSinceMidnight) {
   EXPECT_EQ(column.number(table.rows[1]), 86402.0);
 }
 
+TEST(TimeStamps, CountOnWhereAClockWithoutDatesPassesMidnightAndNowhereElse) {
+  CsvTable table = read_table("t;x\n23:59:59;1\n23:59:58,5;2\n00:00:01;3\n06:00:00;4\n00:00:02;5\n", "p").table;
+  std::optional<double> origin_s;
+  const TimeColumn found = write_times_as_seconds(table, 0, origin_s);
+  EXPECT_THAT(found.remark, HasSubstr("in line 4 the clock falls to 00:00:01: it is taken to have passed midnight"));
+  const TableColumn column(table, {"t", {}}, Quantity::time, {});
+  const double day_s = 86400.0;
+  for (const auto& [row, time_s] : {std::pair{0, day_s - 1.0}, {1, day_s - 1.5}, {2, day_s + 1.0}, {4, day_s + 2.0}})
+    EXPECT_EQ(column.number(table.rows[static_cast<std::size_t>(row)]), time_s) << "rows that are out of order stay so";
+}
+
 }  // namespace
 }  // namespace demecal

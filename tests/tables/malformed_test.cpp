@@ -134,8 +134,9 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"X;Y;Z\n1,234;2,345;0.5\n", "p:2", "different decimal signs"},
         Malformed{"X;Y;Z\n1,5;2,5;3,5\n1,5;2.5;3,5\n", "p:3", "has a point where the file writes decimal commas"},
         Malformed{"X;Y;Z\n1.5;2.5;3.5\n1.5;2,5;3.5\n", "p:3", "is not a number"},
-        Malformed{"X;Y;Z\n1.234,5;2,5;3,5\n", "p:2", "has a point where"},
-        Malformed{"X;Y;Z\n1,234.5;2.5;3.5\n", "p:2", "looks like a number with separators of thousands"},
+        Malformed{"X;Y;Z\n12.34,5;2,5;3,5\n", "p:2", "has a point where"},
+        Malformed{"X;Y;Z\n1.234;2,5;3,5\n", "p:2", "has a point where"},
+        Malformed{"X;Y;Z\n1,234.5;2.5;3.5\n1,234;2.5;3.5\n", "p:3", "looks like a number with separators of thousands"},
         Malformed{"X;Y;Z\n1,5;2;3\n", "p:2", "is not a number", told_decimal('.')},
         Malformed{"X;Y;Z\n1.5;2;3\n", "p:2", "has a point", told_decimal(',')},
         Malformed{"X,Y,Z\n1,5,2,5,3,5\n4,5,5,5,6,5\n", "p:2", "twice as many fields as there are headings"},
@@ -168,6 +169,8 @@ std::string time_complaint(const std::string& text) {
 
 TEST(MalformedTimes, AreRefusedWithTheirLine) {
   EXPECT_THAT(time_complaint("t;x\n12:00:01;1\n12:60:02;2\n"), StartsWith("p:3: '12:60:02': is no time such as"));
+  EXPECT_THAT(time_complaint("t;x\n23:59:59;1\n00:00:01;2\n23:59:58;3\n"),
+              StartsWith("p:4: '23:59:58': is more than half a day after the row before, behind a midnight"));
   EXPECT_THAT(time_complaint("t;x\n12:00:01;1\n2026-11-24 12:00:02;2\n"), HasSubstr("of another form"));
   EXPECT_THAT(time_complaint("t;x\n2026-02-29 12:00:01;1\n"), StartsWith("p:2: '2026-02-29 12:00:01'"));
   EXPECT_THAT(time_complaint("t;x\n11/12/2026 12:00:01;1\n"), StartsWith("p:2: '11/12/2026 12:00:01'"));

@@ -152,6 +152,22 @@ TEST(ReadTable, TakesWhatTheUserSays) {
   EXPECT_EQ(read_table("a;b\n1,2;3,4\n5,6;7,8\n", "p.txt", told).table.rows.size(), 2u);
 }
 
+TEST(ReadTable, TakesThousandsTogetherWhereDecimalsStandBehindThem) {
+  for (const auto& [text, separator] :
+       {std::pair{"P;X;Y\nP1;-1.542,6625;-812,844\nP2;1.234.567,5;2\n", "decimal commas"},
+        {"P;X;Y\nP1;-1,542.6625;-812.844\nP2;1,234,567.5;2\n", "decimal points"}}) {
+    const RecognisedTable read = read_table(text, "p.txt");
+    EXPECT_THAT(read.found, AllOf(HasSubstr(separator), HasSubstr("separators of thousands left out")));
+    const TableColumn x(read.table, {"X", {}}), y(read.table, {"Y", {}});
+    EXPECT_EQ(x.number(read.table.rows[0]), -1542.6625);
+    EXPECT_EQ(x.number(read.table.rows[1]), 1234567.5);
+    EXPECT_EQ(y.number(read.table.rows[0]), -812.844);
+  }
+  // Every number has its thousands apart: the table's rows are known by them.
+  const CsvTable all = read_table("1.542,66;2.000,01;3.000,00\n", "p.txt").table;
+  EXPECT_EQ(TableColumn(all, {"2", {}}).number(all.rows[0]), 2000.01);
+}
+
 TEST(ReadTable, LetsRowsEndInASeparator) {
   const CsvTable table = read_table("x;y;\n1,5;2;\n3;4;\n", "p.txt").table;
   EXPECT_THAT(table.columns, ElementsAre("x", "y"));

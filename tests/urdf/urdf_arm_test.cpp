@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
+#include <sstream>
 
+#include "random/random_stream.hpp"
 #include "small_urdf.hpp"
 
 namespace demecal {
@@ -48,6 +51,37 @@ TEST(UrdfArm, SaysWhatItAssumesOfLimitsAndAxes) {
                           HasSubstr("joint j3 states no limits"), HasSubstr("joint j4 has its lower limit above")));
 }
 
+TEST(UrdfArm, KeepsOriginsThatWereNotChangedWhateverTheirPitch) {
+  RandomStream random{823};
+  for (int trial = 0; trial < 200; ++trial) {
+    std::string text = link_xml("l0");
+    for (int joint = 1; joint <= 4; ++joint) {
+      const double from_upright = std::pow(10.0, random.real(-12.0, -3.0));
+      const double pitch = (random.real(-1.0, 1.0) < 0.0 ? -0.5 : 0.5) * std::numbers::pi + from_upright;
+      std::ostringstream origin;
+      origin.precision(10);
+      origin << R"(<origin xyz="0.1 0.2 0.3" rpy=")" << random.real(-3.0, 3.0) << ' ' << pitch << ' '
+             << random.real(-3.0, 3.0) << R"("/>)";
+      const std::string number = std::to_string(joint), before = std::to_string(joint - 1);
+      text += link_xml("l" + number) +
+              joint_xml("j" + number, "revolute", "l" + before, "l" + number, origin.str() + kTurns);
+    }
+    text = robot_xml(text);
+    const UrdfFile urdf = parse_urdf(text, "arm.urdf");
+    const UrdfArm arm = arm_between(urdf, {}, {});
+    const std::vector<Origin> origins = origins_of(arm.drawing, equivalent_chain(arm.drawing).chain);
+    std::vector<NewOrigin> same;
+    for (std::size_t i = 0; i < origins.size(); ++i)
+      same.push_back({arm.joints[i], origin_of(pose_of(origins[i]), arm.joints[i]->origin)});
+    EXPECT_EQ(with_origins(text, same), text);
+    same[1].origin = origin_of(pose_of(origins[1]) * Eigen::Translation3d(1e-4, 0.0, 0.0), arm.joints[1]->origin);
+    const std::string moved = with_origins(text, same);
+    EXPECT_NE(moved, text);
+    const auto rest = [](const std::string& whole) { return whole.substr(whole.find("rpy", whole.find("\"j2\""))); };
+    EXPECT_EQ(rest(moved), rest(text)) << "what is shifted keeps its angles";
+  }
+}
+
 TEST(UrdfArm, SaysWhereTheFrameOfTheControllerStands) {
   const auto with_base = [](const std::string& origin) {
     return robot_xml(link_xml("base_link") + link_xml("base") + link_xml("a") + link_xml("tool0") +
@@ -58,6 +92,9 @@ TEST(UrdfArm, SaysWhereTheFrameOfTheControllerStands) {
   EXPECT_THAT(arm_between(other, {}, {}).notes, ElementsAre(AllOf(HasSubstr("[0, 0, 330] mm there, turned by 180 deg"),
                                                                   HasSubstr("--base base --tip tool0"))));
   EXPECT_THAT(arm_between(other, "base", "tool0").notes, IsEmpty());
+  const UrdfArm alone = arm_between(other, "base", {});
+  EXPECT_EQ(alone.tip, "tool0") << "the base is fixed to the link that the arm begins at";
+  EXPECT_LT((alone.drawing.joints[0].origin.xyz_m - Eigen::Vector3d(0.0, 0.0, -0.33)).norm(), 1e-8);
   const UrdfFile same = parse_urdf(with_base("<origin xyz=\"0 0 0\"/>"), "arm.urdf");
   EXPECT_THAT(arm_between(same, {}, {}).notes, IsEmpty());
 }
