@@ -38,7 +38,10 @@ void require_poses(std::size_t poses, const DataSet& data, const Job& job) {
 void require_fit(const Fit& fit, const DataSet& data) {
   if (fit.status == FitStatus::too_few_poses) throw InputError({data.file, 0}, "", fit.sentence);
   if (fit.status == FitStatus::not_converged)
-    throw InputError({data.file, 0}, "", "no model fits these poses: " + fit.sentence);
+    throw InputError({data.file, 0}, "",
+                     "no model fits these poses: " + fit.sentence +
+                         ". Correct what was found in the data, if anything was; otherwise declare less, or measure "
+                         "more poses that differ more");
 }
 
 /// Where links are fitted beside base and tool, those alone are a start, which need not have come to rest: precise
