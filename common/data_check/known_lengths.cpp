@@ -82,7 +82,7 @@ std::vector<ComparedLength> compared(const KnownDistance& known, const MedianPla
   for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
     const auto first = places.find({known.first, set}), second = places.find({known.second, set});
     if (first != places.end() && second != places.end())
-      all.push_back({&known, set, separation(first->second, second->second).length_m});
+      all.push_back({&known, set, place_distance(first->second, second->second).length_m});
   }
   return all;
 }

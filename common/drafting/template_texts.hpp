@@ -75,6 +75,7 @@ split: {validation_fraction: 0.3, accept_fraction: 0, seed: 1}   # used where th
 #   radii_sigma_mm: {ball: 0.05}
 #   flatness_mm: {plate: 0.05}
 #   distances: [{between: [ball, socket], mm: 50, sigma_mm: 0.05}]
+#   grids: [{places_mm: {ball: [0, 0], socket: [50, 0]}, sigma_mm: 0.02}]   # where holes are on a plate
 #   parallel: [{between: [plate, edge], sigma_deg: 0.01}]
 #   square: [{between: [plate, edge], sigma_deg: 0.01}]
 @CERTIFICATE@)yaml";

@@ -153,7 +153,7 @@ class RelationCollector {
     for (const PoseSet set : sets) {
       const double sigma = known.sigma_m * std::sqrt(static_cast<double>(sets.size()));
       const ContactPlace &first = place(known.first, set), &second = place(known.second, set);
-      const auto [length_m, along] = separation(first, second);
+      const auto [length_m, along] = place_distance(first, second);
       Eigen::VectorXd row = Eigen::VectorXd::Zero(space_.size());
       add_shift(row, {known.first, set}, -along / sigma);
       add_shift(row, {known.second, set}, along / sigma);

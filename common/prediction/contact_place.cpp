@@ -148,7 +148,7 @@ std::vector<double> from_middle_m(const Touches& touches) {
 
 }  // namespace
 
-Separation separation(const ContactPlace& first, const ContactPlace& second) {
+PlaceDistance place_distance(const ContactPlace& first, const ContactPlace& second) {
   const Eigen::Vector3d apart = first.frame.translation() - second.frame.translation();
   const bool first_is_plane = first.kind == ContactKind::plane;
   if (!first_is_plane && second.kind != ContactKind::plane) return {apart.norm(), apart.stableNormalized()};

@@ -28,11 +28,11 @@ struct Touch {
 
 /// How far apart two places are, neither of them a line: points and centres of spheres from each other; where one is a
 /// plane, its frame's origin or the other place from it (of two planes, the second from the first).
-struct Separation {
+struct PlaceDistance {
   double length_m = 0.0;
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< unit; how it grows as the first place moves
 };
-Separation separation(const ContactPlace& first, const ContactPlace& second);
+PlaceDistance place_distance(const ContactPlace& first, const ContactPlace& second);
 
 /// The motions that move a place of that kind: 0 to 2 along the frame's axes, 3 to 5 about them, kRadiusMotion.
 inline constexpr int kRadiusMotion = 6;

@@ -211,7 +211,7 @@ std::vector<LengthError> length_errors(const CorrectedRobot& robot, const DataSe
     for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
       const auto first = placed.contacts.find({known.first, set}), second = placed.contacts.find({known.second, set});
       if (first == placed.contacts.end() || second == placed.contacts.end()) continue;
-      const auto [length_m, along] = separation(first->second, second->second);
+      const auto [length_m, along] = place_distance(first->second, second->second);
       errors.push_back({&known, set, length_m - known.length_m, along});
     }
   }

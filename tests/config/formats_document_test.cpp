@@ -158,7 +158,8 @@ TEST(FormatsDocument, HasTheKeysOfDataSets) {
                                 {"contacts.kinds", "CONTACT"},
                                 {"contacts.radii_mm", "CONTACT"},
                                 {"contacts.radii_sigma_mm", "CONTACT"},
-                                {"contacts.flatness_mm", "CONTACT"}}});
+                                {"contacts.flatness_mm", "CONTACT"},
+                                {"contacts.grids[].places_mm", "CONTACT"}}});
 }
 
 TEST(FormatsDocument, HasTheKeysOfCells) {
