@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "closed_loop/draw_truth.hpp"
 #include "closed_loop/scene.hpp"
@@ -28,6 +29,25 @@ constexpr std::array<int, 3> kPoses{60, 20, 20};
 constexpr double kOfLimit = 2.0;
 constexpr std::array<const char*, 5> kKinds{"backlash", "compliance", "gear_harmonic", "coupling", "eccentricity"};
 
+/// In place of the lengths of the blocks that are fitted, those between all their sockets, as `contacts.grids` has
+/// them.
+void know_all_lengths(const SocketArm& arm, RandomStream& random, std::vector<KnownDistance>& known) {
+  const std::size_t fitted = arm.sockets.size() - 2;
+  std::vector<Eigen::Vector3d> stated_m;
+  std::set<std::string> names;
+  for (std::size_t i = 0; i < fitted; ++i) {
+    const Eigen::Vector3d error = Eigen::Vector3d::NullaryExpr([&] { return random.normal(); });
+    stated_m.emplace_back(arm.sockets[i].place_m + kLengthSigma_m / std::sqrt(2.0) * error);
+    names.insert(arm.sockets[i].name);
+  }
+  std::erase_if(known, [&](const KnownDistance& one) { return names.contains(one.first); });
+  const double sigma_m = kLengthSigma_m * std::sqrt(0.5 * static_cast<double>(fitted));
+  for (std::size_t second = 1; second < fitted; ++second)
+    for (std::size_t first = 0; first < second; ++first)
+      known.push_back(
+          {arm.sockets[first].name, arm.sockets[second].name, (stated_m[second] - stated_m[first]).norm(), sigma_m});
+}
+
 Scenario scene_of(const SocketArm& arm, std::uint64_t seed, bool touches) {
   Scenario scenario = varied_scene(seed, arm.robot);
   scenario.joint_errors.clear();
@@ -46,6 +66,7 @@ Scenario scene_of(const SocketArm& arm, std::uint64_t seed, bool touches) {
   scenario.play_m = kPlay_m;
   scenario.known_distances = arm.lengths;
   for (KnownDistance& known : scenario.known_distances) known.length_m += known.sigma_m * random.normal();
+  if (arm.on_plate) know_all_lengths(arm, random, scenario.known_distances);
   for (std::size_t i = 0; i < arm.sockets.size(); ++i)
     scenario.touched.push_back({arm.sockets[i].name, arm.sockets[i].place_m, i + 2 >= arm.sockets.size()});
   return scenario;
@@ -146,7 +167,7 @@ void inject_and_diagnose(int number, const SocketArm& arm, std::uint64_t seed, c
 
 }  // namespace
 
-SocketArm socket_arm(const Robot& robot, double length_m) {
+SocketArm socket_arm(const Robot& robot, double length_m, bool on_plate) {
   PlanRequest request;
   request.robot = robot;
   request.poses = kPoses[0];
@@ -155,7 +176,7 @@ SocketArm socket_arm(const Robot& robot, double length_m) {
   request.cell->sockets.length_m = length_m;
   request.cell->sockets.length_sigma_m = kLengthSigma_m;
   Plan plan = make_plan(request);
-  return {robot, std::move(plan.sockets), std::move(plan.lengths)};
+  return {robot, std::move(plan.sockets), std::move(plan.lengths), on_plate};
 }
 
 ContactFigures run_contact_case(int number, const std::vector<SocketArm>& arms) {

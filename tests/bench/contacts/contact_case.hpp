@@ -15,13 +15,14 @@ namespace demecal::bench {
 inline constexpr std::uint64_t kContactSeed = 20'261'126'000;
 
 /// An arm and the sockets that a plan puts about it: two blocks of two sockets, `length_m` apart, that are fitted, and
-/// one for accept poses.
+/// one for accept poses. `on_plate`: where all four are on one plate is known as well as the length of a block is.
 struct SocketArm {
   Robot robot;
   std::vector<PlannedSocket> sockets;
   std::vector<KnownDistance> lengths;
+  bool on_plate = false;
 };
-SocketArm socket_arm(const Robot& robot, double length_m);
+SocketArm socket_arm(const Robot& robot, double length_m, bool on_plate);
 
 struct ContactFigures {
   std::string arm{};

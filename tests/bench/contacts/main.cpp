@@ -100,11 +100,12 @@ int main(int argc, char** argv) {
       "named (wanted all); undeclared causes of twice the limit that are named (wanted .85)."};
   int count = 60, threads = 2;
   double length_mm = 50.0;
-  bool json = false, each = false;
+  bool json = false, each = false, on_plate = false;
   app.add_option("--cases", count, "simulated arms")->capture_default_str()->check(CLI::PositiveNumber);
   app.add_option("--length-mm", length_mm, "between the two sockets of a place, known to 0.02 mm")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
+  app.add_flag("--plate", on_plate, "all four sockets of both places are on one plate: all lengths between them known");
   app.add_option("--threads", threads, "cases at a time; figures do not depend on it")
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
@@ -113,7 +114,7 @@ int main(int argc, char** argv) {
   CLI11_PARSE(app, argc, argv);
   std::vector<SocketArm> arms;
   for (const Robot& robot : mistaken_arms(DEMECAL_SOURCE_DIR "/configs/robots"))
-    arms.push_back(socket_arm(robot, metres(length_mm)));
+    arms.push_back(socket_arm(robot, metres(length_mm), on_plate));
   std::vector<ContactFigures> cases(static_cast<std::size_t>(count));
   const auto run = [&](std::size_t number) { cases[number] = run_contact_case(static_cast<int>(number), arms); };
   run_cases(cases.size(), threads, run, [&](std::size_t number) {
