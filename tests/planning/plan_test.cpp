@@ -180,6 +180,12 @@ TEST(Plan, NamesThePosesThatProgramsLeaveOut) {
                                                testing::HasSubstr(plan.stops[plan.way.blocked.front()].id))));
 }
 
+TEST(Plan, SaysFirstThatPosesAreTooFewAndHowManyItTakes) {
+  EXPECT_THAT(make_plan(request_of(3)).warnings.front(),
+              testing::AllOf(testing::HasSubstr("3 poses are too few"), testing::HasSubstr("it takes ")));
+  EXPECT_THAT(make_plan(request_of(20)).warnings, testing::Not(testing::Contains(testing::HasSubstr("too few"))));
+}
+
 TEST(Plan, RefusesACellWithoutRoom) {
   PlanRequest request = request_of(12);
   request.cell = assumed_cell(request.robot);
