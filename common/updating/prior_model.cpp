@@ -11,6 +11,7 @@
 
 #include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
+#include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
@@ -99,6 +100,11 @@ std::vector<double> variances_within(const CalibratedModel& model, const Assumed
   return result;
 }
 
+/// Teeth and encoders stay as they were made; lost motion, and what springs and weights do, need not.
+double usual_drift(const Effect& effect, const AssumedDrift& drift) {
+  return cause_of(effect.kind).group == CauseGroup::transmission ? drift.transmission_rad : drift.effect_motion;
+}
+
 /// The variance of what the model's effects do to a joint within the range it knows, rad^2.
 double ripple_variance(const CalibratedModel& model, const CorrectedRobot& robot, const Robot& described, int joint) {
   constexpr int kDraws = 200;
@@ -174,7 +180,8 @@ void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& da
       link_drift_[i] = size * size;
     } else {
       const double motion = motions[static_cast<std::size_t>(id.index)][static_cast<std::size_t>(id.coefficient)];
-      effect_drift_[i] = motion > 0.0 ? std::pow(drift.effect_motion / motion, 2.0) : 0.0;
+      const double drifts = usual_drift(robot_.effects[static_cast<std::size_t>(id.index)], drift);
+      effect_drift_[i] = motion > 0.0 ? std::pow(drifts / motion, 2.0) : 0.0;
     }
     Eigen::Index known = -1;
     if (model.posterior) {
