@@ -156,6 +156,12 @@ Posterior posterior_of(const DataSet& data, const DeclaredModel& declared, const
   return fitted_posterior(data, declared, calibration.robot, fitted_poses(data, calibration), noise).posterior;
 }
 
+std::size_t turn_step(double angle_rad) {
+  const double turns = angle_rad / (2.0 * std::numbers::pi);
+  const auto step = static_cast<int>((turns - std::floor(turns)) * kTurnSteps);
+  return static_cast<std::size_t>(std::min(step, kTurnSteps - 1));
+}
+
 Widening widening_at(const CalibratedModel& model, const Stop& stop) {
   return widening(model.robot, {model.measured, model.measured_gaps}, stop);
 }
@@ -192,6 +198,17 @@ std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Ca
     }
   }
   return gaps;
+}
+
+std::map<int, std::vector<int>> pose_counts(const DataSet& data, const Calibration& calibration) {
+  std::map<int, std::vector<int>> counts;
+  for (int joint = 0; joint < data.robot.chain.size(); ++joint) {
+    if (!is_revolute(data.robot.chain, joint)) continue;
+    std::vector<int>& steps = counts[joint];
+    steps.resize(kTurnSteps);
+    for (const std::size_t pose : fitted_poses(data, calibration)) ++steps[turn_step(data.poses[pose].joints[joint])];
+  }
+  return counts;
 }
 
 PredictionInterval interval_of(const DataSet& data, const DeclaredModel& declared, const Calibration& calibration) {

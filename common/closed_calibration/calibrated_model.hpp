@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -49,6 +50,9 @@ struct FleetOrigin {
   std::vector<FleetCurve> curves;
 };
 
+inline constexpr int kTurnSteps = 72;
+inline constexpr double kTurnStep_rad = 2.0 * std::numbers::pi / kTurnSteps;
+
 struct CalibratedModel {
   std::string job;
   Robot nominal;  ///< the robot as its maker describes it
@@ -63,6 +67,9 @@ struct CalibratedModel {
   std::map<int, std::vector<Interval>> measured_gaps{};  ///< of joints, from 0: where inside that none of them stood
   /// That formulas of several joints share; nothing where the job did not ask for any, none where none was found.
   KnownFunctions functions{};
+  /// Of revolute joints, from 0: how many of the fitted poses stand in each kTurnStep_rad of a turn, from 0 on. Nothing
+  /// in models of old versions and of fleets.
+  std::map<int, std::vector<int>> pose_counts{};
   CertificateFields certificate{};  ///< what the job states for certificates
   std::vector<Station> stations{};  ///< where the data were measured from; empty: one place
   /// Of the mean of several robots of one type, whose posterior says how far one of them may be from it; such a model
@@ -76,6 +83,9 @@ struct CalibratedModel {
   std::uint64_t seed = 0;
   std::string version;
 };
+
+/// The step of a turn that an angle is in, whole turns aside.
+std::size_t turn_step(double angle_rad);
 
 /// By how much radii are larger at a stop than where the model was measured.
 Widening widening_at(const CalibratedModel& model, const Stop& stop);
@@ -105,6 +115,9 @@ std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& ca
 /// Inside these the stretches (rad or m) of joints, from 0, in which none of the poses stands, of 20 deg (100 mm) or
 /// more, where as many different values drawn at random would leave one so wide in fewer than one of a hundred cases.
 std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Calibration& calibration);
+
+/// How often revolute joints stand where in their turn, over the same poses.
+std::map<int, std::vector<int>> pose_counts(const DataSet& data, const Calibration& calibration);
 
 /// Whether most poses were measured near the one before them, as along a path: their median step, of the joint that
 /// moves most, is less than a quarter of what the poses cover (random ones go over two thirds of it). Repeats are no

@@ -107,6 +107,16 @@ ParameterId take_parameter(const YamlNode& name, std::vector<ParameterId>& possi
   name.fail("names no number of this model");
 }
 
+void read_pose_counts(const YamlNode& entry, CalibratedModel& model) {
+  entry.with_keys({"joint", "per_5_deg"});
+  const int joint = joint_at(entry, "joint", model.nominal.chain);
+  if (!is_revolute(model.nominal.chain, joint)) entry.fail("joint", "must be revolute");
+  std::vector<int>& counts = model.pose_counts[joint];
+  if (!counts.empty()) entry.fail("joint", "has its counts already");
+  for (const YamlNode& count : entry.at("per_5_deg").list(kTurnSteps))
+    counts.push_back(static_cast<int>(count.whole_number(0, 100'000'000)));
+}
+
 }  // namespace
 
 std::string posterior_text(const CalibratedModel& model) {
@@ -129,6 +139,12 @@ std::string posterior_text(const CalibratedModel& model) {
     for (const Interval& gap : gaps)
       text << "  - {joint: " << joint + 1 << ", "
            << range_text(model.nominal.chain.joints[static_cast<std::size_t>(joint)], gap) << "}\n";
+  }
+  if (!model.pose_counts.empty()) text << "pose_counts:\n";
+  for (const auto& [joint, counts] : model.pose_counts) {
+    std::vector<std::string> numbers;
+    for (const int count : counts) numbers.push_back(std::to_string(count));
+    text << "  - {joint: " << joint + 1 << ", per_5_deg: " << yaml_list(numbers) << "}\n";
   }
   if (!model.posterior) return text.str();
   const Posterior& posterior = *model.posterior;
@@ -167,6 +183,9 @@ void read_posterior(const YamlNode& file, CalibratedModel& model) {
       const int joint = joint_at(entry, "joint", chain);
       model.measured_gaps[joint].push_back(read_range(entry, chain.joints[static_cast<std::size_t>(joint)]));
     }
+  }
+  if (const YamlNode* counts = file.find("pose_counts")) {
+    for (const YamlNode& entry : counts->list()) read_pose_counts(entry, model);
   }
   const YamlNode* node = file.find("posterior");
   if (node == nullptr) return;

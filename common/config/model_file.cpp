@@ -253,6 +253,7 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
                   "corrections",
                   "measured_ranges",
                   "measured_gaps",
+                  "pose_counts",
                   "measured_payload_kg",
                   "measured_temperature_celsius",
                   "posterior",

@@ -228,8 +228,10 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
       "validation poses will show.");
   const auto calibration = static_cast<int>(plan.counts[0]);
   if (calibration < fewest_poses(model) && !request.measured)
-    plan.warnings.push_back(fmt::format("{} poses cannot determine the {} numbers declared: {} at least are needed.",
-                                        calibration, model.ids().size(), fewest_poses(model)));
+    plan.warnings.insert(plan.warnings.begin(),
+                         fmt::format("{} poses are too few for the {} numbers declared: it takes {} at least. The "
+                                     "predicted errors rest on what makers' figures are believed to within.",
+                                     calibration, model.ids().size(), fewest_poses(model)));
   for (const std::string& kind : request.detect) {
     const bool found = std::ranges::any_of(plan.effects, [&](const Effect& effect) { return effect.kind == kind; });
     if (!found)

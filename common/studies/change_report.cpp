@@ -20,6 +20,7 @@
 #include "next_measurement/next_measurement.hpp"
 #include "report/history.hpp"
 #include "studies/change_advice.hpp"
+#include "updating/gross_poses.hpp"
 #include "updating/implausible_change.hpp"
 
 namespace demecal::inline studies {
@@ -49,16 +50,9 @@ Json cause_json(const ChangeCause& cause, const std::string& sentence) {
           {"sentence", sentence}};
 }
 
-/// With their lines, since names may repeat.
 std::string left_out_line(const ChangeReport& change, const DataSet& data) {
-  std::vector<std::string> names;
-  for (const std::size_t i : change.outliers) {
-    const MeasuredPose& pose = data.poses[i];
-    names.push_back(names_itself(pose) ? fmt::format("{} (line {})", pose.pose_id, pose.line)
-                                       : fmt::format("line {}", pose.line));
-  }
   return fmt::format("  left out, since they fit neither the robot as it was nor any change of it: {}\n",
-                     fmt::join(names, ", "));
+                     names_with_lines(data, change.outliers));
 }
 
 std::string answer(const ChangeReport& change) {

@@ -27,6 +27,7 @@ std::string first_few(const std::string& head, const std::vector<std::string>& s
 std::string to_terminal(const Plan& plan, const PlanRequest& request) {
   std::string text = fmt::format("{}: {} calibration, {} validation, {} accept poses\n", request.robot.name,
                                  plan.counts[0], plan.counts[1], plan.counts[2]);
+  text += first_few("  !", plan.warnings, plan.warnings.size());
   text += fmt::format(
       "  predicted error of the tool after calibration: rms {:.3g} mm, mean {:.3g} mm, 95 % below {:.3g} mm\n",
       millimetres(plan.predicted.rms_m), millimetres(plan.predicted.mean_m), millimetres(plan.predicted.p95_m));
@@ -41,7 +42,6 @@ std::string to_terminal(const Plan& plan, const PlanRequest& request) {
   for (const DetectableSize& one : plan.detectable) sizes.push_back(detectable_text(one, request.robot));
   text += first_few("  not identifiable:", unidentified_sentences(plan), kFew - 1);
   text += first_few("  would be found nine times in ten:", sizes, kFew);
-  text += first_few("  !", plan.warnings, plan.warnings.size());
   text += first_few("  -", plan.assumptions, 1);
   return text;
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "decompositions/decompositions.hpp"
+#include "parameters/parameter_space.hpp"
 
 namespace demecal::inline updating {
 namespace {
@@ -83,6 +84,15 @@ std::string_view to_string(BeliefPart part) {
   constexpr std::array<std::string_view, kBeliefParts> kWords{"links", "effects", "joints outside the known range",
                                                               "joints within it"};
   return kWords[static_cast<std::size_t>(part)];
+}
+
+NewRows rows_about(const PriorModel& prior, const DataSet& data, const std::vector<std::size_t>& poses,
+                   const RowScales& scales, const Eigen::VectorXd& change, bool robust) {
+  const ParameterSpace space(prior.changed(change), prior.ids());
+  NewRows rows{residual_field(data, poses, space, scales, robust), {}, {}};
+  rows.columns = prior.columns(rows.field);
+  rows.values = rows.field.residual + rows.columns * change;
+  return rows;
 }
 
 BeliefSizes likeliest_sizes(const PriorModel& prior, const NewRows& new_rows, JointSizes joints) {

@@ -2,9 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <string_view>
+#include <vector>
 
+#include "data/data_set.hpp"
 #include "fitting/tall_products.hpp"
+#include "parameters/observation.hpp"
 #include "residuals/residual_field.hpp"
 #include "updating/prior_model.hpp"
 
@@ -18,6 +22,9 @@ struct NewRows {
   RowMatrix columns;
   Eigen::VectorXd values;  ///< what the columns times the whole change are to explain
 };
+
+NewRows rows_about(const PriorModel& prior, const DataSet& data, const std::vector<std::size_t>& poses,
+                   const RowScales& scales, const Eigen::VectorXd& change, bool robust);
 
 /// Factors of variances.
 struct BeliefSizes {

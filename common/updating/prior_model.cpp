@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <ranges>
 #include <set>
@@ -12,6 +11,7 @@
 
 #include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
+#include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
@@ -24,13 +24,12 @@
 #include "primitives/primitive.hpp"
 #include "random/random_stream.hpp"
 #include "updating/fleet_curves.hpp"
+#include "updating/known_places.hpp"
 
 namespace demecal::inline updating {
 namespace {
 
 constexpr double kBase = 5e-3, kTool = 5e-3;  ///< m and rad about where base and tool were found
-/// To which a joint is known at one place of the model's range; of a fleet, to which its robots' spread tells it.
-constexpr double kKnownWithin_rad = 3e-5, kToldWithin_rad = 3e-6;
 
 bool is_place(const ParameterId& id) {
   using Kind = ParameterId::Kind;
@@ -99,6 +98,11 @@ std::vector<double> variances_within(const CalibratedModel& model, const Assumed
       result[i] = std::pow(curve.wave_deviations_rad[i], 2.0);
   }
   return result;
+}
+
+/// Teeth and encoders stay as they were made; lost motion, and what springs and weights do, need not.
+double usual_drift(const Effect& effect, const AssumedDrift& drift) {
+  return cause_of(effect.kind).group == CauseGroup::transmission ? drift.transmission_rad : drift.effect_motion;
 }
 
 /// The variance of what the model's effects do to a joint within the range it knows, rad^2.
@@ -176,7 +180,8 @@ void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& da
       link_drift_[i] = size * size;
     } else {
       const double motion = motions[static_cast<std::size_t>(id.index)][static_cast<std::size_t>(id.coefficient)];
-      effect_drift_[i] = motion > 0.0 ? std::pow(drift.effect_motion / motion, 2.0) : 0.0;
+      const double drifts = usual_drift(robot_.effects[static_cast<std::size_t>(id.index)], drift);
+      effect_drift_[i] = motion > 0.0 ? std::pow(drifts / motion, 2.0) : 0.0;
     }
     Eigen::Index known = -1;
     if (model.posterior) {
@@ -207,8 +212,6 @@ void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& da
 }
 
 void PriorModel::believe_ripples(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift) {
-  constexpr double kStep_rad = 0.035;
-  const double known_rad = model.fleet ? kToldWithin_rad : kKnownWithin_rad;
   const auto terms = static_cast<Eigen::Index>(ripples_.terms.size());
   ripple_.setZero(terms);
   outside_.resize(ripples_.base.size());
@@ -231,17 +234,13 @@ void PriorModel::believe_ripples(const CalibratedModel& model, const DataSet& da
           std::max(variance, 1e-14) *
           wave_share(ripples_.terms[static_cast<std::size_t>(of_joint[joint][static_cast<std::size_t>(i)])].harmonic);
     Eigen::MatrixXd information = shares.cwiseInverse().asDiagonal();
-    if (joint < model.measured.size()) {
-      const double width = std::min(model.measured[joint].upper - model.measured[joint].lower, 2.0 * std::numbers::pi);
-      for (double passed = 0.0; passed <= width; passed += kStep_rad) {
-        const double theta = model.measured[joint].lower + passed;
-        Eigen::VectorXd wave(count);
-        for (Eigen::Index i = 0; i < count; ++i) {
-          const int n = ripples_.terms[static_cast<std::size_t>(of_joint[joint][static_cast<std::size_t>(i)])].harmonic;
-          wave[i] = i % 2 == 0 ? std::cos(n * theta) : std::sin(n * theta);
-        }
-        information += wave * wave.transpose() / (known_rad * known_rad);
+    for (const KnownPlace& place : known_places(model, static_cast<int>(joint))) {
+      Eigen::VectorXd wave(count);
+      for (Eigen::Index i = 0; i < count; ++i) {
+        const int n = ripples_.terms[static_cast<std::size_t>(of_joint[joint][static_cast<std::size_t>(i)])].harmonic;
+        wave[i] = i % 2 == 0 ? std::cos(n * place.theta_rad) : std::sin(n * place.theta_rad);
       }
+      information += wave * wave.transpose() / place.variance;
     }
     outside_[joint] = Cholesky(information).inverse();
   }

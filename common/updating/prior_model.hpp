@@ -24,11 +24,12 @@ namespace demecal::inline updating {
 
 /// How far numbers of each kind drift between two measurements, standard deviations.
 struct AssumedDrift {
-  double offset_rad = 1e-4;     ///< zeros of joints
-  double angle_rad = 5e-5;      ///< other angles of links
-  double length_m = 3e-5;       ///< lengths of links
-  double effect_motion = 3e-5;  ///< of an effect's motions, rad or m
-  double ripple_rad = 3e-5;     ///< of a joint over its turn
+  double offset_rad = 1e-4;        ///< zeros of joints
+  double angle_rad = 5e-5;         ///< other angles of links
+  double length_m = 3e-5;          ///< lengths of links
+  double transmission_rad = 3e-5;  ///< what gears and encoders do over their turns
+  double effect_motion = 1e-4;     ///< of other effects' motions, rad or m
+  double ripple_rad = 3e-5;        ///< of a joint over its turn
 };
 
 /// Parts of the belief whose sizes new poses may change: each is multiplied by a factor that they make likeliest.

@@ -24,18 +24,10 @@
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
 #include "updating/belief_sizes.hpp"
+#include "updating/gross_poses.hpp"
 
 namespace demecal::inline updating {
 namespace {
-
-NewRows rows_about(const PriorModel& prior, const DataSet& data, const std::vector<std::size_t>& poses,
-                   const RowScales& scales, const Eigen::VectorXd& change, bool robust) {
-  const ParameterSpace space(prior.changed(change), prior.ids());
-  NewRows rows{residual_field(data, poses, space, scales, robust), {}, {}};
-  rows.columns = prior.columns(rows.field);
-  rows.values = rows.field.residual + rows.columns * change;
-  return rows;
-}
 
 /// The most probable change, and a root of its covariance.
 struct Solution {
@@ -55,39 +47,6 @@ Solution solve(const Eigen::MatrixXd& covariance, const NewRows& rows, double no
   solution.change = root * known.solve(seen.transpose() * rows.values / noise);
   solution.root = known.whitened(root.transpose()).transpose();
   return solution;
-}
-
-/// What all other poses predict of each, all sizes being as they are.
-struct LeftOut {
-  double squares = 0.0;          ///< of the rows' errors
-  std::vector<double> standard;  ///< root mean square per pose, in predicted deviations
-};
-
-LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
-  Eigen::MatrixXd all = rows.columns * covariance * rows.columns.transpose();
-  all.diagonal().array() += noise;
-  const Eigen::MatrixXd inverse = Cholesky(all).inverse();
-  const Eigen::VectorXd whitened = inverse * rows.values;
-  LeftOut result;
-  for (std::size_t pose = 0; pose < rows.field.poses.size(); ++pose) {
-    const Eigen::Index first = rows.field.first_row[pose], count = rows.field.rows_of_pose(pose);
-    const Eigen::VectorXd error =
-        Cholesky(inverse.block(first, first, count, count)).solve(whitened.segment(first, count));
-    result.squares += error.squaredNorm();
-    const double square = error.dot(whitened.segment(first, count)) / static_cast<double>(count);
-    result.standard.push_back(std::sqrt(std::max(0.0, square)));
-  }
-  return result;
-}
-
-/// Without poses that the others predict far worse than usual.
-std::vector<std::size_t> without_gross(const LeftOut& found, const NewRows& rows) {
-  constexpr double kGross = 4.0;
-  const double most = kGross * std::max(1.0, median(found.standard));
-  std::vector<std::size_t> kept;
-  for (std::size_t i = 0; i < found.standard.size(); ++i)
-    if (found.standard[i] <= most) kept.push_back(rows.field.poses[i]);
-  return kept;
 }
 
 RowScales scales_of_new_poses(const DataSet& data, const CorrectedRobot& placed, const std::vector<std::size_t>& poses,
@@ -147,7 +106,7 @@ Posterior posterior_of_update(const PriorModel& prior, const Eigen::MatrixXd& ro
   return posterior;
 }
 
-void say_changes(const BeliefSizes& sizes, bool of_fleet, Update& update) {
+void say_changes(const BeliefSizes& sizes, const DataSet& data, bool of_fleet, Update& update) {
   constexpr double kMuch = 3.0;
   for (std::size_t part = 0; part < kBeliefParts; ++part) {
     const double times = std::sqrt(sizes.factors[part]);
@@ -161,6 +120,10 @@ void say_changes(const BeliefSizes& sizes, bool of_fleet, Update& update) {
                                "measurements: are they of the same robot, and has nothing been exchanged?",
                                what, times));
   }
+  if (!update.gross.empty())
+    update.sentences.push_back(
+        fmt::format("Left out as gross errors by what the model and the other poses predict of them: {}.",
+                    names_with_lines(data, update.gross)));
   if (update.base_and_tool_only)
     update.sentences.emplace_back(
         "Base and tool alone explain the new poses best: nothing else of the old model was changed.");
@@ -174,6 +137,7 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
   constexpr std::size_t kMostLeftOut = 150;  ///< poses
   constexpr double kNothing = 1e-8;
   const PriorModel prior(model, placed, data, poses, declared, drift);
+  const JointSizes joints = model.fleet ? JointSizes::alike : JointSizes::each;
   RowScales scales = scales_of_new_poses(data, placed, poses, model.interval);
   Update update;
   Solution solution{Eigen::VectorXd::Zero(prior.numbers()), {}};
@@ -183,11 +147,14 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
   for (int step = 0; step < kSteps; ++step) {
     const bool many = used.size() > kMostLeftOut;
     const NewRows rows = rows_about(prior, data, used, scales, solution.change, many && step > 0);
-    sizes = likeliest_sizes(prior, rows, model.fleet ? JointSizes::alike : JointSizes::each);
+    sizes = likeliest_sizes(prior, rows, joints);
     covariance = prior.covariance(sizes.factors, sizes.of_joint);
     if (!many) {
       const LeftOut all = left_out(covariance, rows, sizes.noise);
-      if (step == 0) used = without_gross(all, rows);
+      if (step == 0) {
+        update.gross = gross_poses(prior, rows, sizes, joints);
+        std::erase_if(used, [&](std::size_t pose) { return std::ranges::binary_search(update.gross, pose); });
+      }
       // A robot may be as it was; none is its fleet's mean.
       const Eigen::MatrixXd little = prior.covariance({kNothing, kNothing, kNothing, kNothing}, sizes.of_joint);
       update.base_and_tool_only = !model.fleet && left_out(little, rows, sizes.noise).squares < all.squares;
@@ -206,7 +173,7 @@ Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const
   update.estimates = updated_estimates(prior, update.robot, data, solution.root);
   update.factors = sizes.factors;
   update.noise_factor = sizes.noise;
-  say_changes(sizes, model.fleet.has_value(), update);
+  say_changes(sizes, data, model.fleet.has_value(), update);
   return update;
 }
 

@@ -23,6 +23,7 @@ struct Update {
   PartFactors factors{};            ///< by which the new poses multiply the variance of what may have changed
   double noise_factor = 1.0;        ///< the same of the rows' variance
   bool base_and_tool_only = false;  ///< nothing else that the model says could be improved on
+  std::vector<std::size_t> gross;   ///< poses that were left out as gross errors
   std::vector<std::string> sentences;
 };
 

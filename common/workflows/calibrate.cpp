@@ -226,6 +226,7 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
           .interval = interval_of(data, job.declared, calibration),
           .measured = measured_ranges(data, calibration),
           .measured_gaps = measured_gaps(data, calibration),
+          .pose_counts = pose_counts(data, calibration),
           .certificate = job.certificate,
           .stations = as_files_have_it(stations_as_found(calibration.robot, data)),
           .data_name = data.name,
@@ -252,9 +253,8 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
   result.fronts = islands.take_fronts();
   result.calibration = conclude(data, job, result.preparation, result.candidates);
   result.before = result.calibration.robot;
-  if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0) {
+  if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0)
     close_the_loop(data, job, islands, interrupt, observer, result);
-  }
   islands.dismiss_workers();
   result.model = make_model(data, job, result.calibration);
   result.model.functions = result.functions;

@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -53,6 +55,13 @@ Calibration calibration_of_update(const DataSet& data, const Preparation& prepar
   result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
   result.index_after_mm2 = performance_index_mm2(result.robot, data, fitted);
   return result;
+}
+
+/// What both models' poses show; nothing where the old model does not state where its poses stood.
+std::map<int, std::vector<int>> counts_beside(std::map<int, std::vector<int>> known,
+                                              const std::map<int, std::vector<int>>& added) {
+  for (auto& [joint, steps] : known) std::ranges::transform(steps, added.at(joint), steps.begin(), std::plus{});
+  return known;
 }
 
 /// The rms error on validation poses while they were unseen; nothing where there are too few to judge by.
@@ -117,6 +126,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
                   .interval = interval,
                   .measured = measured_ranges(data, result.calibration),
                   .measured_gaps = measured_gaps(data, result.calibration),
+                  .pose_counts = counts_beside(prior.pose_counts, pose_counts(data, result.calibration)),
                   .stations = stations_as_found(update.robot, data),
                   .data_name = data.name,
                   .data_sha256 = data.sha256,

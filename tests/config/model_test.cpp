@@ -143,7 +143,7 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   model.posterior = posterior;
   model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true, {{"", 2e-5}, {"B: door", 1e-3}}, true};
   for (int joint = 0; joint < 6; ++joint) model.measured.push_back({stream.real(-2, 0), stream.real(0, 2)});
-  model.robot.temperatures_celsius = Interval{stream.real(15, 20), 25.0};
+  model.robot.temperatures_celsius = Interval{stream.real(15, 20), 25.0}, model.pose_counts[0].assign(kTurnSteps, 7);
   model.robot.payloads_kg = Interval{0.0, stream.real(1, 9)}, model.measured_gaps = {{1, {{-0.5, 0.25}, {0.5, 1.0}}}};
   const CalibratedModel read = written_and_read(model);
   ASSERT_TRUE(read.posterior && read.interval);
@@ -159,8 +159,8 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   EXPECT_EQ(read.posterior->terms[0].joint, 1);
   EXPECT_DOUBLE_EQ(read.posterior->terms[0].shape(0.6), posterior.terms[0].shape(0.6));
   EXPECT_LT((read.posterior->factor - posterior.factor).cwiseAbs().maxCoeff(), 1e-8);
-  EXPECT_TRUE(read.measured == model.measured && read.measured_gaps == model.measured_gaps);
-  EXPECT_TRUE(read.robot.payloads_kg == model.robot.payloads_kg &&
+  EXPECT_TRUE(read.measured == model.measured && read.measured_gaps == model.measured_gaps &&
+              read.pose_counts == model.pose_counts && read.robot.payloads_kg == model.robot.payloads_kg &&
               read.robot.temperatures_celsius == model.robot.temperatures_celsius);
 }
 

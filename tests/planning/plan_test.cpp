@@ -180,6 +180,26 @@ TEST(Plan, NamesThePosesThatProgramsLeaveOut) {
                                                testing::HasSubstr(plan.stops[plan.way.blocked.front()].id))));
 }
 
+/// Others are drawn in their place as long as there are: which ones does not matter.
+TEST(Plan, ReplacesPosesThatJudgeWhereNoWayLeadsToThem) {
+  for (const double half_m : {0.1, 0.2}) {
+    PlanRequest request = request_of(14);
+    request.validation = request.accept = 8;
+    request.cell = assumed_cell(request.robot);
+    const Eigen::Vector3d centre_m(0.4, 0.0, 0.5);
+    request.cell->tool_box = Eigen::AlignedBox3d(centre_m.array() - half_m, centre_m.array() + half_m);
+    const Plan plan = make_plan(request);
+    EXPECT_THAT(plan.counts, testing::ElementsAre(14u, 8u, 8u));
+    for (const std::size_t blocked : plan.way.blocked) EXPECT_EQ(plan.stops[blocked].set, PoseSet::calibration);
+  }
+}
+
+TEST(Plan, SaysFirstThatPosesAreTooFewAndHowManyItTakes) {
+  EXPECT_THAT(make_plan(request_of(3)).warnings.front(),
+              testing::AllOf(testing::HasSubstr("3 poses are too few"), testing::HasSubstr("it takes ")));
+  EXPECT_THAT(make_plan(request_of(20)).warnings, testing::Not(testing::Contains(testing::HasSubstr("too few"))));
+}
+
 TEST(Plan, RefusesACellWithoutRoom) {
   PlanRequest request = request_of(12);
   request.cell = assumed_cell(request.robot);
