@@ -46,7 +46,7 @@ std::string attribute_text(const char* name, const Eigen::Vector3d& values) {
 }
 
 /// Whether the places are turned alike: near a pitch of 90 deg by whichever roll and yaw.
-bool same_turn(const Origin& one, const Origin& other) {
+bool turned_alike(const Origin& one, const Origin& other) {
   return (pose_of(one).linear() - pose_of(other).linear()).cwiseAbs().maxCoeff() <= kSame;
 }
 
@@ -63,7 +63,7 @@ void replace_attribute(const XmlElement& origin, const char* name, const Eigen::
 void replace_origin(const NewOrigin& change, std::vector<ByteChange>& replacements) {
   const Origin &old_origin = change.joint->origin, &origin = change.origin;
   const bool moved = (origin.xyz_m - old_origin.xyz_m).cwiseAbs().maxCoeff() > kSame;
-  const bool turned = !same_turn(origin, old_origin);
+  const bool turned = !turned_alike(origin, old_origin);
   if (const XmlElement* written = change.joint->element.child("origin")) {
     if (moved) replace_attribute(*written, "xyz", origin.xyz_m, replacements);
     if (turned) replace_attribute(*written, "rpy", origin.rpy_rad, replacements);
