@@ -150,13 +150,21 @@ DrawnJoint read_axis(const YamlNode& node) {
   return joint;
 }
 
-void check_that_names_differ(const YamlNode& joints) {
-  std::set<std::string> names;
+void check_that_names_differ(const YamlNode& joints, std::set<std::string>& names) {
   for (const YamlNode& joint : joints.list()) {
     const YamlNode* name = joint.find("name");
     if (name != nullptr && !names.insert(name->text()).second)
       name->fail("is the name of two joints; names must differ");
   }
+}
+
+DrawnArm with_positioner(const YamlNode& node, const DrawnArm& arm, const Origin& workpiece) {
+  if (!arm.by_axes) node.fail("", "is drawn by axes, and so must be the arm: convention: urdf");
+  std::vector<DrawnJoint> axes;
+  for (const YamlNode& axis : node.list()) axes.push_back(read_axis(axis));
+  if (axes.empty() || axes.size() + arm.joints.size() > static_cast<std::size_t>(kMaxJoints))
+    node.fail("", "must have an axis at least, and with the arm's joints from 1 to " + std::to_string(kMaxJoints));
+  return behind_positioner(arm, axes, workpiece);
 }
 
 void check_reach(const YamlNode& joints, const DrawnArm& arm) {
@@ -227,8 +235,15 @@ DrawnArm read_drawing(const YamlNode& node) {
   for (const YamlNode& joint : joints.children) arm.joints.push_back(arm.by_axes ? read_axis(joint) : read_row(joint));
   arm.base = read_end(node.find("base"));
   arm.flange = read_end(node.find("flange"));
-  check_that_names_differ(joints);
+  std::set<std::string> names;
+  check_that_names_differ(joints, names);
   check_reach(joints, arm);
+  if (const YamlNode* positioner = node.find("positioner")) {
+    check_that_names_differ(*positioner, names);
+    arm = with_positioner(*positioner, arm, read_end(node.find("workpiece")));
+  } else if (const YamlNode* workpiece = node.find("workpiece")) {
+    workpiece->fail("", "is held by a positioner: `positioner` is missing");
+  }
   if (const YamlNode* couplings = node.find("couplings")) arm.couplings = read_couplings(*couplings, arm);
   return arm;
 }

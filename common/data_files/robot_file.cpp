@@ -48,6 +48,17 @@ Eigen::Vector3d read_gravity(const YamlNode& node) {
   return gravity_mps2;
 }
 
+/// Gravity is told in the frame that the chain begins in, which turns with a positioner; nor does the arm rest on the
+/// positioner's joints.
+void leave_weight_out(const YamlNode& node, Robot& robot) {
+  const YamlNode* const gravity = node.find("gravity_mps2");
+  if (gravity != nullptr && !robot.gravity_mps2.isZero(0.0))
+    gravity->fail("", "turns with the workpiece that a positioner carries: leave it out, or write [0, 0, 0]");
+  if (const YamlNode* links = node.find("links"))
+    links->fail("", "have weights, which turn with the workpiece that a positioner carries: leave them out");
+  robot.gravity_mps2.setZero();
+}
+
 double read_most_payload(const YamlNode& node) {
   const double payload_kg = node.positive();
   if (payload_kg > kMostPayload_kg)
@@ -154,8 +165,9 @@ MatrixText read_matrix(const YamlNode& node) {
 }  // namespace
 
 Robot read_robot(const YamlNode& node) {
-  node.with_keys({"demecal_robot", "name", "convention", "base", "joints", "flange", "couplings", "tool_mm", "links",
-                  "gravity_mps2", "urdf", "repeatability_mm", "payload_kg", "home_deg", "pulses_per_deg", "balancers"});
+  node.with_keys({"demecal_robot", "name", "convention", "base", "joints", "positioner", "workpiece", "flange",
+                  "couplings", "tool_mm", "links", "gravity_mps2", "urdf", "repeatability_mm", "payload_kg", "home_deg",
+                  "pulses_per_deg", "balancers"});
   Robot robot;
   robot.name = node.at("name").text();
   DrawnArm drawing = read_drawing(node);
@@ -172,6 +184,7 @@ Robot read_robot(const YamlNode& node) {
     set_centres(robot, equivalent.drawn_links);
   }
   if (const YamlNode* gravity = node.find("gravity_mps2")) robot.gravity_mps2 = read_gravity(*gravity);
+  if (node.find("positioner") != nullptr) leave_weight_out(node, robot);
   if (const YamlNode* spread = node.find("repeatability_mm")) robot.repeatability_m = metres(spread->non_negative());
   if (const YamlNode* payload = node.find("payload_kg")) robot.payload_kg = read_most_payload(*payload);
   if (const YamlNode* urdf = node.find("urdf")) robot.urdf = read_urdf_source(*urdf);
@@ -195,9 +208,16 @@ std::string robot_text(const Robot& robot, const LinkInertias& inertias, int ind
   std::ostringstream text;
   text << margin << "name: " << yaml_text(robot.name) << '\n';
   text << margin << "convention: " << convention_word(drawing) << '\n';
-  if (drawing.base != Origin{}) text << margin << "base: " << origin_text(drawing.base) << '\n';
+  const DrawnPositioner positioner = drawing.positioner.value_or(DrawnPositioner{});
+  const Origin& base = drawing.positioner ? positioner.base : drawing.base;
+  if (base != Origin{}) text << margin << "base: " << origin_text(base) << '\n';
+  std::vector<DrawnJoint> joints(drawing.joints.begin() + std::ssize(positioner.joints), drawing.joints.end());
+  if (drawing.positioner) joints.front().origin = positioner.first_joint;
   text << margin << "joints:\n";
-  for (const DrawnJoint& joint : drawing.joints) text << margin << "  - " << joint_text(drawing, joint) << '\n';
+  for (const DrawnJoint& joint : joints) text << margin << "  - " << joint_text(drawing, joint) << '\n';
+  if (drawing.positioner) text << margin << "positioner:\n";
+  for (const DrawnJoint& axis : positioner.joints) text << margin << "  - " << joint_text(drawing, axis) << '\n';
+  if (positioner.workpiece != Origin{}) text << margin << "workpiece: " << origin_text(positioner.workpiece) << '\n';
   if (drawing.flange != Origin{}) text << margin << "flange: " << origin_text(drawing.flange) << '\n';
   if (!drawing.couplings.empty()) text << margin << "couplings: " << couplings_text(drawing) << '\n';
   text << margin << "tool_mm: " << yaml_mm(robot.chain.tool_m) << '\n';

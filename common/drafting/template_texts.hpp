@@ -35,6 +35,9 @@ joints:                    # from the base on; the figures below are an example:
 # With convention: urdf joints stand by origins and axes:
 # joints:
 #   - {type: continuous, xyz_mm: [0, 0, 333], rpy_deg: [0, 0, 0], axis: [0, 0, 1]}   # turns without limits
+# and a positioner may carry the workpiece, from which positions then count; its joints come first, the last of them before all, as in
+#   positioner: [{name: tilt, type: revolute, xyz_mm: [1200, 0, 700], axis: [0, 1, 0], limits_deg: [-90, 90]}]
+# which may hold it aside by workpiece: {xyz_mm: [0, 0, 100], rpy_deg: [0, 0, 0]}
 )yaml";
 
 inline constexpr std::string_view kDataSetTemplate =

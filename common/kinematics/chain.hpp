@@ -65,7 +65,8 @@ struct CommandCoupling {
   bool operator==(const CommandCoupling&) const = default;
 };
 
-/// A serial arm from base to flange, with the tool point in the flange frame.
+/// A serial arm from base to flange, with the tool point in the flange frame. Behind a positioner it begins in the
+/// workpiece, whose frame is then the base frame of all that follows.
 struct Chain {
   Convention convention = Convention::standard_dh;
   std::vector<Joint> joints;
@@ -73,6 +74,7 @@ struct Chain {
   Eigen::Isometry3d base = Eigen::Isometry3d::Identity();    ///< where the first link's transforms begin, base frame
   Eigen::Isometry3d flange = Eigen::Isometry3d::Identity();  ///< the flange in the last link's frame
   std::vector<CommandCoupling> couplings{};                  ///< by joint
+  int positioner = 0;  ///< so many joints, the first, lead from a workpiece that they carry to what the arm stands on
 
   int size() const { return static_cast<int>(joints.size()); }
 };

@@ -216,10 +216,30 @@ Origin origin_of(const Eigen::Isometry3d& pose, const Origin& near) {
   return {pose.translation(), first ? one_near : other_near};
 }
 
+DrawnArm behind_positioner(const DrawnArm& arm, const std::vector<DrawnJoint>& positioner, const Origin& workpiece) {
+  DEMECAL_CHECK(arm.by_axes && !arm.joints.empty() && !positioner.empty(), positioner.size() << " axes");
+  DrawnArm seen = arm;
+  seen.positioner = DrawnPositioner{positioner, workpiece, arm.base, arm.joints.front().origin};
+  seen.base = {};
+  seen.joints.clear();
+  Eigen::Isometry3d before = pose_of(workpiece).inverse();  // of the next joint's frame in the one before
+  for (auto joint = positioner.rbegin(); joint != positioner.rend(); ++joint) {
+    seen.joints.push_back(*joint);
+    seen.joints.back().origin = origin_of(before);
+    seen.joints.back().axis = -joint->axis;
+    before = pose_of(joint->origin).inverse();
+  }
+  seen.joints.insert(seen.joints.end(), arm.joints.begin(), arm.joints.end());
+  Origin& first = seen.joints[positioner.size()].origin;
+  first = origin_of(before * pose_of(arm.base) * pose_of(first));
+  return seen;
+}
+
 EquivalentChain equivalent_chain(const DrawnArm& arm) {
   DEMECAL_CHECK(!arm.joints.empty() && arm.joints.size() <= static_cast<std::size_t>(kMaxJoints), arm.joints.size());
   EquivalentChain result = arm.by_axes ? chain_by_axes(arm) : chain_by_rows(arm);
   result.chain.couplings = arm.couplings;
+  if (arm.positioner) result.chain.positioner = static_cast<int>(arm.positioner->joints.size());
   return result;
 }
 

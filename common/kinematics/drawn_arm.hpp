@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,13 @@ struct DrawnJoint {
   double offset = 0.0;     ///< rad or m
 };
 
+/// A positioner as it is drawn: from what the arm stands on to the workpiece.
+struct DrawnPositioner {
+  std::vector<DrawnJoint> joints;
+  Origin workpiece{};            ///< in the last joint's frame
+  Origin base{}, first_joint{};  ///< of the arm, as they are drawn without the positioner
+};
+
 struct DrawnArm {
   bool by_axes = false;  ///< by a URDF's origins and axes, which have no convention
   Convention convention = Convention::modified_dh;
@@ -40,7 +48,13 @@ struct DrawnArm {
   Origin base{}, flange{};
   std::vector<CommandCoupling> couplings{};
   std::vector<Eigen::Vector3d> centres_m{};  ///< of the links' masses, each in its link's frame; empty: unknown
+  /// Where there is one, `joints` begin with its joints, backwards from the workpiece.
+  std::optional<DrawnPositioner> positioner{};
 };
+
+/// The arm, drawn by axes, as a workpiece sees it: the positioner's joints, taken backwards, stand before the arm's, so
+/// that the one nearest to the workpiece is joint 1. They have the same values as before.
+DrawnArm behind_positioner(const DrawnArm& arm, const std::vector<DrawnJoint>& positioner, const Origin& workpiece);
 
 /// The chain of a drawn arm: its joints' values are the commands, and its axes point as the joints count.
 struct EquivalentChain {

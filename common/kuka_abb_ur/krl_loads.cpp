@@ -1,7 +1,9 @@
 #include "kuka_abb_ur/krl_loads.hpp"
 
 #include <algorithm>
+#include <string>
 
+#include "data/text.hpp"
 #include "parsed_programs/payload_values.hpp"
 
 namespace demecal::inline kuka_abb_ur {
@@ -17,6 +19,24 @@ std::optional<double> changed_load_kg(std::string_view code, std::size_t at) {
   if (load_name(code, at) != "m") return std::nullopt;
   const std::size_t sign = code.find_first_not_of(" \t", code.find('m', at) + 1);
   return sign < code.size() && code[sign] == '=' ? number_argument(code, sign + 1) : std::nullopt;
+}
+
+namespace {
+
+std::optional<double> load_of_tool(std::string_view code, const std::optional<double>& number) {
+  constexpr std::string_view kMass = "{m ";
+  if (!number || *number < 1.0) return std::nullopt;
+  return declared_load_kg(code, "load_data[" + number_text(*number) + "]", "=", kMass);
+}
+
+}  // namespace
+
+std::optional<double> selected_load_kg(std::string_view code, std::size_t at) {
+  return load_of_tool(code, number_argument(code, at));
+}
+
+std::optional<double> inline_load_kg(std::string_view code, std::size_t at) {
+  return load_of_tool(code, declared_load_kg(code, load_name(code, at), "=", "{tool_no "));
 }
 
 }  // namespace demecal::inline kuka_abb_ur

@@ -12,5 +12,9 @@ namespace demecal::inline kuka_abb_ur {
 std::optional<double> stated_load_kg(std::string_view code, std::size_t at);
 /// Behind "$LOAD.": M=6; another part says nothing of the mass.
 std::optional<double> changed_load_kg(std::string_view code, std::size_t at);
+/// Behind "BAS(#TOOL,": the number of a tool, with which its load is selected; no tool has the controller's own.
+std::optional<double> selected_load_kg(std::string_view code, std::size_t at);
+/// Behind "FDAT_ACT=": the frame data of an inline form, which name such a tool.
+std::optional<double> inline_load_kg(std::string_view code, std::size_t at);
 
 }  // namespace demecal::inline kuka_abb_ur

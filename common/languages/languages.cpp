@@ -138,6 +138,27 @@ const Language* first_of(std::span<const Language> among, const Match& match) {
   return found == among.end() ? nullptr : &*found;
 }
 
+/// A table of numbers, which begins with no words of a language.
+bool is_table(const Language& language) {
+  return language.headers.empty() && language.openings.empty();
+}
+
+void refuse_beside_positioner(const Language& language, const std::string& file) {
+  throw InputError({file, 0}, "",
+                   "is a program in " + std::string(language.title) +
+                       ", which does not say where the arm goes on a workpiece that a positioner carries, as the model "
+                       "does: only a table of all joints can be corrected");
+}
+
+/// No table of poses says where the positioner stands.
+void refuse_poses(const Program& program) {
+  const auto pose = std::ranges::find_if(program.targets, &Target::is_pose);
+  if (pose == program.targets.end()) return;
+  throw InputError({program.file, pose->place.line}, "",
+                   "is a pose on the workpiece, which does not say where the positioner that carries it stands: give "
+                   "all joints (q1_deg, q2_deg, ...), the positioner's first");
+}
+
 }  // namespace
 
 const Language* find_language(std::string_view name, std::span<const Language> among) {
@@ -171,11 +192,13 @@ std::string_view written_ending(const Language& language) {
 
 Program read_program(const Language& language, const ProgramSource& source, const Chain& arm,
                      const ControllerData& controller) {
+  if (arm.positioner > 0 && !is_table(language)) refuse_beside_positioner(language, source.file());
   const bool several = source.files().size() > 1;
   if (several) require_each_readable(language, source, arm, controller);
   Program program = language.read({source, arm, controller});
   program.language = language.name;
   program.file = source.file();
+  if (arm.positioner > 0) refuse_poses(program);
   for (std::size_t file = 1; file < source.files().size(); ++file)
     program.further.push_back({source.files()[file].name, source.begin(file)});
   program.payload_statements = payload_statements_of(language, source);
@@ -185,7 +208,7 @@ Program read_program(const Language& language, const ProgramSource& source, cons
 
 void require_program(const Language& language, const ProgramSource& source, const Program& program) {
   if (!program.targets.empty() || !program.uncorrected.empty() || !program.joints_lost_at.empty()) return;
-  if (language.headers.empty() && language.openings.empty()) return;  // its reader refuses what is none
+  if (is_table(language)) return;  // its reader refuses what is none
   const std::string text = lower_case(source.text());
   std::vector<std::string> words(language.headers.begin(), language.headers.end());
   words.insert(words.end(), language.openings.begin(), language.openings.end());

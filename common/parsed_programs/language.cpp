@@ -39,7 +39,7 @@ std::vector<std::string> numbered_names(std::string_view stem, int count) {
 
 bool has_six_revolute_joints(const Chain& arm, int rails) {
   constexpr int kSix = 6;
-  if (arm.size() != kSix + rails) return false;
+  if (arm.size() != kSix + rails || arm.positioner > 0) return false;
   for (int joint = 0; joint < arm.size(); ++joint) {
     if (is_revolute(arm, joint) != (joint >= rails)) return false;
   }

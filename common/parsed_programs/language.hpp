@@ -30,7 +30,7 @@ std::string joints_text_si(const JointVector& joints, std::string_view separator
 /// "A1", "A2", ... as many as the arm has joints.
 std::vector<std::string> numbered_names(std::string_view stem, int count);
 
-/// Whether targets of six joints can be of this arm, all of them revolute, so many rails before them.
+/// Whether targets of six joints can be of this arm, all of them revolute, so many rails before them and no positioner.
 bool has_six_revolute_joints(const Chain& arm, int rails = 0);
 
 /// The arm without its rails, and the joints of a stop in two: those of the rails, and those of the arm on them.

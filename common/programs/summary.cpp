@@ -95,7 +95,7 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
 /// Where the base is that poses are counted from, for people to compare with the controller's: the height of the place
 /// on axis 2 that is nearest to axis 1. Empty where no two joints turn about axes that differ in direction.
 std::string base_text(const Chain& arm) {
-  if (arm.size() < 2 || !is_revolute(arm, 0) || !is_revolute(arm, 1)) return "";
+  if (arm.positioner > 0 || arm.size() < 2 || !is_revolute(arm, 0) || !is_revolute(arm, 1)) return "";
   const auto places =
       differential_kinematics(arm, JointVector::Zero(arm.size()), arm.tool_m, PlaceMotions::Zero(6, arm.size() + 1))
           .places;

@@ -151,9 +151,10 @@ void print_joints(const Robot& robot) {
   fmt::print("{}: {} joints\n\n", robot.name, chain.size());
   for (std::size_t i = 0; i < chain.joints.size(); ++i) {
     const bool reversed = robot.drawing && robot.drawing->joints[i].direction < 0;
-    fmt::print("  joint {}  {:24} {:9}  {}{}\n", i + 1, drawn_name(robot, i),
+    fmt::print("  joint {}  {:24} {:9}  {}{}{}\n", i + 1, drawn_name(robot, i),
                is_revolute(chain.joints[i]) ? "revolute" : "prismatic", limits_text(chain.joints[i]),
-               reversed ? "  (counts the other way)" : "");
+               reversed ? "  (counts the other way)" : "",
+               static_cast<int>(i) < chain.positioner ? "  (carries the workpiece: its frame is the base's)" : "");
   }
   for (const CommandCoupling& coupling : chain.couplings)
     fmt::print("  joint {} is also turned by {:g} times the command of joint {}\n", coupling.joint + 1, coupling.factor,

@@ -87,6 +87,11 @@ TEST(PayloadStatements, AreReadWithTheLoadsThatTheProgramDeclares) {
   EXPECT_EQ(krl("; LOAD_DATA[3]={M 12.0}\n$LOAD=LOAD_DATA[3]"), std::nullopt) << "a comment";
   EXPECT_EQ(krl("LOAD_DATA[3]={M 12.0}\n$LOAD=LOAD_DATA[n]"), std::nullopt) << "computed";
   EXPECT_EQ(krl("$LOAD.CM={X 0,Y 0,Z 5}"), std::nullopt);
+  const std::string loads = "LOAD_DATA[1]={M 8.0,CM {X 0,Y 0,Z 0}}\nLOAD_DATA[2]={M 9.0}\n";
+  EXPECT_EQ(krl(loads + "DECL FDAT FP1={TOOL_NO 2,BASE_NO 1,IPO_FRAME #BASE}\nFDAT_ACT=FP1"), 9.0);
+  EXPECT_EQ(krl(loads + "FDAT_ACT=FP1"), std::nullopt) << "in a file that is not given";
+  EXPECT_EQ(krl(loads + "BAS (#TOOL,1)"), 8.0);
+  EXPECT_EQ(krl(loads + "BAS(#TOOL,0)"), std::nullopt) << "the controller's own";
   const auto rapid = [](const std::string& declared) {
     return first_kg(WrittenIn::rapid, "MODULE M\n" + declared + "\nPROC main()\nGripLoad part1;\nENDPROC\nENDMODULE\n");
   };
