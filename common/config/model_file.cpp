@@ -144,9 +144,8 @@ KnownFunctions read_functions(const YamlNode* node) {
 }
 
 /// Estimates are for people: nothing but their keys is looked at.
-void check_estimates(const YamlNode* list) {
-  if (list == nullptr) return;
-  for (const YamlNode& entry : list->list()) entry.with_keys({"name", "nominal", "value", "standard_error"});
+void check_estimates(const YamlNode& list) {
+  for (const YamlNode& entry : list.list()) entry.with_keys({"name", "nominal", "value", "standard_error"});
 }
 
 /// Reads one entry of `corrections` into summary and correction.
@@ -286,7 +285,7 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
     model.robot.tools[target ? target->text() : ""] = read_rigid(tool.at("pose"));
   }
   read_stations(file.find("stations"), model.stations);
-  check_estimates(file.find("estimates"));
+  if (const YamlNode* estimates = file.find("estimates")) check_estimates(*estimates);
   model.functions = read_functions(file.find("shared_functions"));
   read_corrections(file.at("corrections"), model);
   model.robot.effects = read_effects(file.at("effects"), model.nominal);

@@ -266,14 +266,13 @@ class Planning {
     Plan tried = plan;
     RefinedPoses others = calibration;
     std::vector<PlannedPose> left = candidates_;
-    for (int round = 0; round < kReplacements && !tried.way.blocked.empty(); ++round) {
+    for (std::uint64_t round = 0; round < kReplacements && !tried.way.blocked.empty(); ++round) {
       places_ = poses_but(std::move(places_), tried.stops, tried.way.blocked);
       left = poses_but(std::move(left), tried.stops, tried.way.blocked);
       const std::vector<PlannedPose> kept = poses_but(others.poses, tried.stops, tried.way.blocked);
       if (kept.size() < others.poses.size()) {
         RefinedPoses next = completed(model_, kept, others.poses.size() - kept.size(), left, known, workspace.weight());
-        next = refined(model_, space_, std::move(next.poses), known, workspace.weight(),
-                       stream(7 + static_cast<std::uint64_t>(round)));
+        next = refined(model_, space_, std::move(next.poses), known, workspace.weight(), stream(7 + round));
         if (workspace.predicted(next.covariance).rms_m <= enough_m) others = std::move(next);
       }
       tried = with_stops(others.poses);

@@ -17,7 +17,7 @@ double most_expected(const LeftOut& found) {
 }
 
 /// The rows of these places among the poses.
-NewRows rows_of(const NewRows& rows, const std::vector<std::size_t>& places) {
+NewRows rows_at_places(const NewRows& rows, const std::vector<std::size_t>& places) {
   std::vector<Eigen::Index> kept;
   NewRows some;
   some.field.first_row = {0};
@@ -75,14 +75,14 @@ std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& row
     (found.standard[i] <= most_expected(found) ? kept : gross).push_back(i);
   BeliefSizes present = sizes;
   for (std::size_t searched = 0; searched < rows.field.poses.size() / kOneIn; ++searched) {
-    const NewRows all = rows_of(rows, kept);
+    const NewRows all = rows_at_places(rows, kept);
     const LeftOut by_all = left_out_by(prior, present, all);
     const auto worst = std::ranges::max_element(by_all.standard);
     if (*worst < kSuspect * median(by_all.standard)) break;
     const auto place = worst - by_all.standard.begin();
     std::vector<std::size_t> fewer = kept;
     fewer.erase(fewer.begin() + place);
-    present = likeliest_sizes(prior, rows_of(rows, fewer), joints);
+    present = likeliest_sizes(prior, rows_at_places(rows, fewer), joints);
     const LeftOut by_fewer = left_out_by(prior, present, all);
     if (by_fewer.standard[static_cast<std::size_t>(place)] <= most_expected(by_fewer)) break;
     gross.push_back(kept[static_cast<std::size_t>(place)]);
