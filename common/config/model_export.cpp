@@ -89,6 +89,8 @@ std::string urdf_path(const CalibratedModel& model, const std::string& file) {
 }
 
 ExportedArm rewritten(const CalibratedModel& model, const CorrectedRobot& robot, const std::string& source) {
+  if (model.nominal.chain.positioner > 0)
+    throw InputError({source, 0}, "", "has no positioner, where the model begins: export it in another format");
   const std::string text = read_file(source);
   const UrdfFile urdf = parse_urdf(text, source);
   const UrdfArm arm = arm_between(urdf, model.nominal.urdf->base, model.nominal.urdf->tip);

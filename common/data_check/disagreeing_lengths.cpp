@@ -31,7 +31,8 @@ constexpr double kDisagrees = 4.0;  ///< standard deviations
 /// How the mean of the points of a contact's poses moves with each of the posterior's independent numbers.
 struct PlacedContact {
   Eigen::MatrixXd spread_m;  ///< 3 x numbers
-  double touches = 0.0;
+  ContactPlace place{};
+  std::vector<Touch> touches{};
 };
 
 class PlacedContacts {
@@ -41,13 +42,15 @@ class PlacedContacts {
 
   PlacedContact at(const ContactGroup& group) const {
     const std::vector<std::size_t>& members = groups_.at(group);
-    PlacedContact place{.spread_m = Eigen::MatrixXd::Zero(3, posterior_.factor.cols()),
-                        .touches = static_cast<double>(members.size())};
+    PlacedContact placed{.spread_m = Eigen::MatrixXd::Zero(3, posterior_.factor.cols())};
     for (const std::size_t index : members) {
       const MeasuredPose& pose = data_.poses[index];
-      place.spread_m += pose_spread(posterior_, robot_, Stop(pose), pose.target).topRows<3>() / place.touches;
+      placed.touches.push_back(touch_of(robot_, pose));
+      placed.spread_m +=
+          pose_spread(posterior_, robot_, Stop(pose), pose.target).topRows<3>() / static_cast<double>(members.size());
     }
-    return place;
+    placed.place = contact_place(data_.contacts.form_of(group.contact), placed.touches);
+    return placed;
   }
 
  private:
@@ -62,7 +65,8 @@ class PlacedContacts {
 double open_m2(const PlacedContact& first, const PlacedContact& second, const Eigen::Vector3d& along,
                const PredictionInterval& interval) {
   const Eigen::RowVectorXd spread_m = along.transpose() * (first.spread_m - second.spread_m);
-  return spread_m.squaredNorm() + std::pow(interval.noise_m, 2) * (1.0 / first.touches + 1.0 / second.touches) +
+  return spread_m.squaredNorm() + placed_m2(first.place, first.touches, second.place, interval.noise_m) +
+         placed_m2(second.place, second.touches, first.place, interval.noise_m) +
          2.0 * std::pow(interval.model_error_m, 2);
 }
 

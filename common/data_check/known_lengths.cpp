@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -15,6 +16,7 @@
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
 #include "data_check/searches.hpp"
+#include "decompositions/decompositions.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
@@ -41,10 +43,11 @@ struct ComparedLength {
   const KnownDistance* known = nullptr;
   PoseSet set = PoseSet::calibration;
   double by_arm_m = 0.0;
+  double open_m = 0.0;  ///< what few touches leave open of where planes and spheres are
 
   bool is_wrong(double apart_m) const {
     return std::abs(by_arm_m - known->length_m) >
-           std::max(kLengthOff_m, 2.0 * apart_m) + kLengthOffShare * std::max(by_arm_m, known->length_m);
+           std::max(kLengthOff_m, 2.0 * apart_m) + kLengthOffShare * std::max(by_arm_m, known->length_m) + open_m;
   }
   const LengthUnit* unit() const {
     const auto fits = [this](const LengthUnit& one) {
@@ -55,7 +58,11 @@ struct ComparedLength {
   }
 };
 
-using MedianPlaces = std::map<ContactGroup, ContactPlace>;
+struct TouchedPlace {
+  ContactPlace place;
+  std::vector<Touch> touches;
+};
+using MedianPlaces = std::map<ContactGroup, TouchedPlace>;
 
 /// Where the poses of every contact and set have it; of points the median along each axis, which a few poses at another
 /// contact cannot move.
@@ -71,24 +78,30 @@ MedianPlaces median_places(const DataSet& data, const CorrectedRobot& robot) {
       for (const Touch& touch : touches) along.push_back(touch.point_m[axis]);
       place.frame.translation()[axis] = median(along);
     }
-    places[group] = place;
+    places[group] = {place, std::move(touches)};
   }
   return places;
 }
 
 /// Those of one length in every set.
-std::vector<ComparedLength> compared(const KnownDistance& known, const MedianPlaces& places) {
+std::vector<ComparedLength> compared(const KnownDistance& known, const MedianPlaces& places, double apart_m) {
+  constexpr double kDeviations = 3.0;
+  const auto open_m2 = [&](const TouchedPlace& own, const TouchedPlace& other) {
+    return own.place.kind == ContactKind::point ? 0.0 : placed_m2(own.place, own.touches, other.place, apart_m);
+  };
   std::vector<ComparedLength> all;
   for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
     const auto first = places.find({known.first, set}), second = places.find({known.second, set});
-    if (first != places.end() && second != places.end())
-      all.push_back({&known, set, place_distance(first->second, second->second).length_m});
+    if (first == places.end() || second == places.end()) continue;
+    const TouchedPlace &one = first->second, &other = second->second;
+    all.push_back({&known, set, place_distance(one.place, other.place).length_m,
+                   kDeviations * std::sqrt(open_m2(one, other) + open_m2(other, one))});
   }
   return all;
 }
 
-double apart_m(const ContactPlace& one, const ContactPlace& other) {
-  return (one.frame.translation() - other.frame.translation()).norm();
+double apart_m(const TouchedPlace& one, const TouchedPlace& other) {
+  return (one.place.frame.translation() - other.place.frame.translation()).norm();
 }
 
 /// Two contacts of a set of which each stands where the other does in another set, one of them `contact`.
@@ -152,13 +165,55 @@ Finding wrong_in_one_set(const ComparedLength& one, const DataSet& data, const M
   return finding;
 }
 
+/// A place moved by one of its motions.
+ContactPlace nudged(ContactPlace place, int motion, double step) {
+  const Eigen::Matrix3d axes = place.frame.linear();
+  if (motion == kRadiusMotion) {
+    place.radius_m += step;
+  } else if (motion < 3) {
+    place.frame.translation() += step * axes.col(motion);
+  } else {
+    const Eigen::Vector3d axis = axes.col(motion - 3);
+    place.frame.linear() = Eigen::AngleAxisd(step, axis) * axes;
+  }
+  return place;
+}
+
 }  // namespace
+
+double placed_m2(const ContactPlace& own, const std::vector<Touch>& touches, const ContactPlace& other,
+                 double noise_m) {
+  constexpr double kStep = 1e-6, kUnseen = 1e-9;
+  const std::vector<int> motions = motions_of(own);
+  const Eigen::Index each = rows_of(own.kind);
+  Eigen::MatrixXd rows(each * std::ssize(touches), std::ssize(motions));
+  Eigen::VectorXd slopes(std::ssize(motions));
+  for (Eigen::Index k = 0; k < slopes.size(); ++k) {
+    const ContactPlace moved = nudged(own, motions[static_cast<std::size_t>(k)], kStep);
+    slopes[k] = (place_distance(moved, other).length_m - place_distance(own, other).length_m) / kStep;
+    for (Eigen::Index i = 0; i < std::ssize(touches); ++i) {
+      const Touch& touch = touches[static_cast<std::size_t>(i)];
+      rows.block(each * i, k, each, 1) = (contact_residual(moved, touch) - contact_residual(own, touch)) / kStep;
+    }
+  }
+  const auto information = eigen_system(rows.transpose() * rows);
+  const double least = kUnseen * information.values.maxCoeff();
+  double open_m2 = 0.0;
+  for (Eigen::Index i = 0; i < slopes.size(); ++i) {
+    const double slope = information.vectors.col(i).dot(slopes);
+    if (information.values[i] > least)
+      open_m2 += slope * slope / information.values[i];
+    else if (std::abs(slope) > kUnseen)
+      return std::numeric_limits<double>::infinity();
+  }
+  return noise_m * noise_m * open_m2;
+}
 
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m) {
   const MedianPlaces places = median_places(data, robot);
   std::vector<Finding> found;
   for (const KnownDistance& known : data.contacts.distances) {
-    const std::vector<ComparedLength> all = compared(known, places);
+    const std::vector<ComparedLength> all = compared(known, places, apart_m);
     const auto is_wrong = [apart_m](const ComparedLength& one) { return one.is_wrong(apart_m); };
     const auto first = std::ranges::find_if(all, is_wrong);
     if (first == all.end()) continue;

@@ -167,6 +167,10 @@ std::optional<Finding> find_exchanged_contacts(const DataSet& data);
 /// contact `apart_m` from their middle.
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m);
 
+/// What touches that scatter by `noise_m` leave open of how far a place is from another, m^2: of a plane its tilt, of a
+/// sphere its radius, too. Infinite where they do not tell where it is.
+double placed_m2(const ContactPlace& own, const std::vector<Touch>& touches, const ContactPlace& other, double noise_m);
+
 /// The three of these lengths that are off most, and how many more there are.
 std::vector<Finding> worst_lengths(std::vector<Finding> found);
 

@@ -56,6 +56,8 @@ void leave_weight_out(const YamlNode& node, Robot& robot) {
     gravity->fail("", "turns with the workpiece that a positioner carries: leave it out, or write [0, 0, 0]");
   if (const YamlNode* links = node.find("links"))
     links->fail("", "have weights, which turn with the workpiece that a positioner carries: leave them out");
+  if (const YamlNode* balancers = node.find("balancers"))
+    balancers->fail("", "carry weight, which turns with the workpiece that a positioner carries: leave them out");
   robot.gravity_mps2.setZero();
 }
 

@@ -227,11 +227,13 @@ void describe_assumptions(const PlanRequest& request, const FeasibleSpace& space
       "Predicted errors are those of the numbers declared: what the arm does besides comes on top, and is what the "
       "validation poses will show.");
   const auto calibration = static_cast<int>(plan.counts[0]);
-  if (calibration < fewest_poses(model) && !request.measured)
+  if (calibration < fewest_poses(model) && !request.measured) {
+    plan.has_too_few_poses = true;
     plan.warnings.insert(plan.warnings.begin(),
                          fmt::format("{} poses are too few for the {} numbers declared: it takes {} at least. The "
                                      "predicted errors rest on what makers' figures are believed to within.",
                                      calibration, model.ids().size(), fewest_poses(model)));
+  }
   for (const std::string& kind : request.detect) {
     const bool found = std::ranges::any_of(plan.effects, [&](const Effect& effect) { return effect.kind == kind; });
     if (!found)

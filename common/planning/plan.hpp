@@ -92,6 +92,7 @@ struct Plan {
   std::vector<DetectableSize> detectable;
   std::vector<std::string> assumptions;  ///< sentences: what nobody stated, and what was taken instead
   std::vector<std::string> warnings;     ///< sentences: what may be wrong with the plan
+  bool has_too_few_poses = false;        ///< for the numbers declared; the first warning says how many it takes
   std::size_t drawn = 0, feasible = 0;   ///< random joints tried, and how many of them were
   std::array<std::size_t, kObstructions> refused{};
   std::vector<Effect> effects;  ///< that it can tell apart

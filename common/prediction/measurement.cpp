@@ -206,11 +206,17 @@ bool measures_point(const MeasuredPose& pose) {
 
 std::vector<LengthError> length_errors(const CorrectedRobot& robot, const DataSet& data) {
   const CorrectedRobot placed = with_own_contacts(robot, data);
+  const std::set<ContactGroup> untold = only_placed(data);
+  // One touch says where a point is; three turn a plane to wherever their noise has it.
+  const auto is_placed = [&](const auto& found) {
+    return found != placed.contacts.end() &&
+           (found->second.kind == ContactKind::point || !untold.contains(found->first));
+  };
   std::vector<LengthError> errors;
   for (const KnownDistance& known : data.contacts.distances) {
     for (const PoseSet set : {PoseSet::calibration, PoseSet::validation, PoseSet::accept}) {
       const auto first = placed.contacts.find({known.first, set}), second = placed.contacts.find({known.second, set});
-      if (first == placed.contacts.end() || second == placed.contacts.end()) continue;
+      if (!is_placed(first) || !is_placed(second)) continue;
       const auto [length_m, along] = place_distance(first->second, second->second);
       errors.push_back({&known, set, length_m - known.length_m, along});
     }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string_view>
 
 #include "data/text.hpp"
 #include "kinematics/forward.hpp"
@@ -92,6 +93,10 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
   return json;
 }
 
+constexpr std::string_view kOfWorkpiece =
+    "The tool is brought to where the workpiece is drawn on its positioner; where it stands otherwise, by what the "
+    "calibration found of its base, is not corrected.\n";
+
 /// Where the base is that poses are counted from, for people to compare with the controller's: the height of the place
 /// on axis 2 that is nearest to axis 1. Empty where no two joints turn about axes that differ in direction.
 std::string base_text(const Chain& arm) {
@@ -168,6 +173,7 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
   const std::size_t left = static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size();
   if (left > 0) text += fmt::format("; {} left as they are", left);
   text += '\n' + corrected.program.joint_counting;
+  if (arm.positioner > 0) text += kOfWorkpiece;
   for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
     if (corrected.program.targets[i].is_pose() && !corrected.targets[i].is_uncorrected()) return text + base_text(arm);
   }

@@ -101,7 +101,7 @@ std::string unfitted_lengths_sentence(const std::vector<LengthErrorEntry>& lengt
   if (count == 0) return {};
   return fmt::format(
       "Accuracy against lengths that nothing was fitted to: off by {:.3f} mm (rms of {}, each known to "
-      "{:g} mm).",
+      "{:.2g} mm).",
       std::sqrt(squares_mm2 / count), count, sigma_mm);
 }
 

@@ -67,6 +67,10 @@ void take_ball(const PlanCommand& command, PlanRequest& request) {
 PlanRequest plan_request(const PlanCommand& command) {
   PlanRequest request;
   request.robot = load_robot(command.robot_file);
+  if (request.robot.chain.positioner > 0)
+    throw InputError({command.robot_file, 0}, "positioner",
+                     "moves the workpiece before the arm: such poses are not planned; plan for the arm alone, "
+                     "described without it");
   if (!command.declared.empty()) request.declared = declared_model(command.declared);
   request.declared.registration = true;
   request.detect = command.detect;

@@ -154,7 +154,7 @@ void print_joints(const Robot& robot) {
     fmt::print("  joint {}  {:24} {:9}  {}{}{}\n", i + 1, drawn_name(robot, i),
                is_revolute(chain.joints[i]) ? "revolute" : "prismatic", limits_text(chain.joints[i]),
                reversed ? "  (counts the other way)" : "",
-               static_cast<int>(i) < chain.positioner ? "  (carries the workpiece: its frame is the base's)" : "");
+               static_cast<int>(i) < chain.positioner ? "  (carries the workpiece, from which poses count)" : "");
   }
   for (const CommandCoupling& coupling : chain.couplings)
     fmt::print("  joint {} is also turned by {:g} times the command of joint {}\n", coupling.joint + 1, coupling.factor,

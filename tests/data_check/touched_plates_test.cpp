@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data_check/check_data.hpp"
@@ -123,6 +124,28 @@ TEST(TouchedPlates, NameNoPoseForTheFlatnessThatIsStated) {
   data.contacts.forms["plate"].flatness_m = 2e-3;
   weigh_by_flatness(data);
   EXPECT_THAT(check_data(data).findings, IsEmpty());
+}
+
+TEST(TouchedPlates, AreAsFarApartAsTheyAreHoweverFewPosesTouchThem) {
+  constexpr double kPlay_m = 4e-5;
+  const Eigen::Vector3d shelf_m = kPlateMiddle + Eigen::Vector3d(0.08, 0.04, 0.1);
+  for (std::uint64_t seed = 9941; seed < 9946; ++seed) {
+    for (const int validating : {2, 3, 4, 6}) {
+      RandomStream stream{seed};
+      KnownArm arm = perfect_arm(seven_joint_arm(), Frame::base);
+      misbuild(arm, stream, {.joint_offset = true, .geometry = true});
+      touch(arm, stream, "left", Eigen::Vector3d(0.45, 0.25, 0.1), 12, kPlay_m);
+      touch(arm, stream, "right", Eigen::Vector3d(0.35, -0.35, 0.35), 12, kPlay_m);
+      for (const auto& [set, touches] : {std::pair{PoseSet::calibration, 12}, {PoseSet::validation, validating}}) {
+        touch_plate(arm, stream, "plate", kPlateMiddle, 0.08, touches, kPlay_m, set);
+        touch_plate(arm, stream, "shelf", shelf_m, 0.03, touches, kPlay_m, set);
+      }
+      arm.data.contacts.distances = {{"plate", "shelf", 0.1, 1e-5}};
+      EXPECT_THAT(check_data(arm.data).findings, IsEmpty()) << seed << " " << validating;
+      arm.data.contacts.distances[0].length_m = 0.15;
+      EXPECT_FALSE(check_data(arm.data).findings.empty()) << seed << " " << validating;
+    }
+  }
 }
 
 }  // namespace

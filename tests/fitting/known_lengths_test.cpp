@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "parameters/observation.hpp"
 #include "touching_arm.hpp"
@@ -63,6 +64,17 @@ TEST(KnownLengths, OfAPointAbovePlaneGiveTheArmItsScale) {
   const Fit fit = fit_all(arm, kAll);
   ASSERT_EQ(fit.status, FitStatus::converged) << fit.sentence;
   EXPECT_NEAR(found_share(arm, fit.robot), 1.0, 0.2);
+}
+
+TEST(KnownLengths, AcrossAPlaneThatItsTouchesOnlyPlaceAreNoError) {
+  RandomStream stream{9303};
+  for (const auto& [touches, expected] : {std::pair{3, 0u}, std::pair{8, 1u}}) {
+    KnownArm arm = perfect_arm(seven_joint_arm(), Frame::base);
+    touch_plate(arm, stream, "table", kBlock, 0.12, touches, kTouch_m);
+    touch(arm, stream, "socket", kBlock + Eigen::Vector3d(0.05, 0.02, 0.12), 1, kTouch_m);
+    arm.data.contacts.distances = {{"socket", "table", 0.12, 5e-6}};
+    EXPECT_EQ(length_errors(arm.truth, arm.data).size(), expected) << touches;
+  }
 }
 
 }  // namespace

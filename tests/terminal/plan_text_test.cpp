@@ -41,6 +41,10 @@ TEST(PlanText, FitsOneScreenHoweverMuchThereIsToSay) {
   EXPECT_THAT(text, HasSubstr("- 6 more in plan.html"));
   for (const char* warning : {"Warning 1", "Warning 2", "Warning 3"}) EXPECT_THAT(text, HasSubstr(warning));
   EXPECT_LT(text.find("would be found"), text.find("Warning 1")) << "the answer first";
+  plan.has_too_few_poses = true;
+  const std::string too_few = to_terminal(plan, request);
+  EXPECT_LT(too_few.find("Warning 1"), too_few.find("predicted error")) << "what may make the answer wrong before it";
+  EXPECT_LT(too_few.find("would be found"), too_few.find("Warning 2"));
   plan.assumptions.resize(1);
   EXPECT_THAT(to_terminal(plan, request), Not(HasSubstr("- 6 more")));
 }
