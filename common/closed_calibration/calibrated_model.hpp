@@ -50,6 +50,7 @@ struct FleetOrigin {
   std::vector<FleetCurve> curves;
 };
 
+/// The steps of a joint's turn that CalibratedModel::pose_counts counts poses in.
 inline constexpr int kTurnSteps = 72;
 inline constexpr double kTurnStep_rad = 2.0 * std::numbers::pi / kTurnSteps;
 
