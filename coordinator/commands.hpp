@@ -123,7 +123,8 @@ auto fit_or_report(const std::string& folder, const std::string& job, const Chec
 }
 
 struct PriorRun {
-  std::string prior_file, out;
+  std::vector<std::string> prior_files;  ///< the model to bring up to date, then those that tell how the robot drifts
+  std::string out;
   Job job;
   bool declared_stated = false;  ///< otherwise what is declared is the prior's
   WorkerArguments workers;       ///< of which none is started: they say where watchers are

@@ -82,9 +82,8 @@ FleetNumbers::FleetNumbers(std::span<const CalibratedModel* const> models, const
     : models_(models), robot_(robot) {
   find_ids(averages);
   find_sizes(averages);
-  std::vector<KnownNumbers> robots;
-  for (std::size_t i = 0; i < models_.size(); ++i) robots.push_back(known(*models_[i], averages[i]));
-  type_ = type_spread(robots, groups(), maker_precision());
+  for (std::size_t i = 0; i < models_.size(); ++i) known_.push_back(known_of(*models_[i], averages[i]));
+  type_ = type_spread(known_, groups(), maker_precision());
   type_.mean = sizes_.asDiagonal() * type_.mean;
   type_.spread = sizes_.asDiagonal() * type_.spread;
   type_.mean_covariance = sizes_.asDiagonal() * type_.mean_covariance * sizes_.asDiagonal();
@@ -152,7 +151,7 @@ void FleetNumbers::find_sizes(const std::vector<std::vector<double>>& averages) 
     sizes_[static_cast<Eigen::Index>(i)] = std::max(kLeast, std::sqrt(squares[group[i]] / count[group[i]]));
 }
 
-KnownNumbers FleetNumbers::known(const CalibratedModel& model, const std::vector<double>& averages) const {
+KnownNumbers FleetNumbers::known_of(const CalibratedModel& model, const std::vector<double>& averages) const {
   // Of an effect that the model lacks, in sizes; of a zero that a correction takes the place of.
   constexpr double kLacking = 0.02, kCorrected_rad = 1e-5;
   KnownNumbers result{Eigen::MatrixXd::Zero(std::ssize(ids_), std::ssize(ids_)), {}};

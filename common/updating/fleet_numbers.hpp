@@ -33,6 +33,11 @@ struct TypeSpread {
 TypeSpread type_spread(std::span<const KnownNumbers> robots, std::span<const int> groups,
                        const Eigen::VectorXd& mean_precision);
 
+/// By group, the standard deviation of numbers about the mean of several models, where all of a group deviate alike: 1
+/// is believed before, as much as four further numbers would tell. Numbers should be in units of what is believed.
+Eigen::VectorXd group_spread(std::span<const KnownNumbers> models, std::span<const int> groups,
+                             const Eigen::VectorXd& mean_precision);
+
 /// The effects that any of the models has, their coefficients zero; of references (of temperature, of time) the mean,
 /// of ranges what all know that have it.
 std::vector<Effect> united_effects(std::span<const CalibratedModel* const> models);
@@ -53,21 +58,26 @@ class FleetNumbers {
   /// Of a further robot of the type.
   Eigen::MatrixXd covariance() const;
 
+  /// What each model says of the numbers divided by sizes(), and how precisely the maker's figures say them.
+  const std::vector<KnownNumbers>& known() const { return known_; }
+  const Eigen::VectorXd& sizes() const { return sizes_; }
+  Eigen::VectorXd maker_precision() const;
+
  private:
   void find_ids(const std::vector<std::vector<double>>& averages);
-  KnownNumbers known(const CalibratedModel& model, const std::vector<double>& averages) const;
+  KnownNumbers known_of(const CalibratedModel& model, const std::vector<double>& averages) const;
   /// Where a model's posterior has the number; -1 where it has not.
   Eigen::Index place(const CalibratedModel& model, const ParameterId& id) const;
   double value(const CalibratedModel& model, const ParameterId& id) const;
   bool is_zero_of(const ParameterId& id) const;
   std::vector<int> groups() const;
-  Eigen::VectorXd maker_precision() const;
   void find_sizes(const std::vector<std::vector<double>>& averages);
 
   std::span<const CalibratedModel* const> models_;
   CorrectedRobot robot_;
   std::vector<ParameterId> ids_;
   Eigen::VectorXd sizes_;  ///< of each number, SI; those of a group alike
+  std::vector<KnownNumbers> known_;
   TypeSpread type_;
 };
 

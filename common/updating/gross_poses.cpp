@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
+#include <functional>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include "decompositions/decompositions.hpp"
 #include "random/distributions.hpp"
@@ -34,6 +37,30 @@ NewRows rows_at_places(const NewRows& rows, const std::vector<std::size_t>& plac
 
 LeftOut left_out_by(const PriorModel& prior, const BeliefSizes& sizes, const NewRows& rows) {
   return left_out(prior.covariance(sizes.factors, sizes.of_joint), rows, sizes.noise);
+}
+
+/// A pose by its place, by how many times it is further out than is usual when it has no part in the sizes.
+struct Suspect {
+  std::size_t place;
+  double times;
+  BeliefSizes without;  ///< likeliest without it
+};
+
+/// The places of what may be gross, the worst first. Among few poses one that is bends what the others predict so far
+/// that another may look worse.
+std::vector<std::size_t> suspects(const LeftOut& found) {
+  constexpr double kSuspect = 2.0;
+  constexpr std::size_t kFew = 20, kMost = 8;
+  std::vector<std::size_t> places(found.standard.size());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  std::ranges::stable_sort(places, std::greater{}, [&](std::size_t place) { return found.standard[place]; });
+  if (places.size() <= kFew) {
+    places.resize(std::min(places.size(), kMost));
+  } else {
+    places.resize(1);
+    if (found.standard[places[0]] < kSuspect * median(found.standard)) places.clear();
+  }
+  return places;
 }
 
 }  // namespace
@@ -67,26 +94,31 @@ std::string names_with_lines(const DataSet& data, const std::vector<std::size_t>
 
 std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& rows, const BeliefSizes& sizes,
                                      JointSizes joints) {
-  constexpr double kSuspect = 2.0;
-  constexpr std::size_t kOneIn = 10;  ///< poses is looked for so: more of them are no errors
+  constexpr std::size_t kOneIn = 10;  ///< poses is looked for so, and one of few: more of them are no errors
+  constexpr std::size_t kFewest = 6;  ///< of fewer, base and tool follow the one that is
+  const std::size_t poses = rows.field.poses.size(),
+                    most = poses < kFewest ? 0 : std::max<std::size_t>(1, poses / kOneIn);
   const LeftOut found = left_out_by(prior, sizes, rows);
   std::vector<std::size_t> kept, gross;
   for (std::size_t i = 0; i < found.standard.size(); ++i)
     (found.standard[i] <= most_expected(found) ? kept : gross).push_back(i);
   BeliefSizes present = sizes;
-  for (std::size_t searched = 0; searched < rows.field.poses.size() / kOneIn; ++searched) {
+  for (std::size_t searched = 0; searched < most; ++searched) {
     const NewRows all = rows_at_places(rows, kept);
-    const LeftOut by_all = left_out_by(prior, present, all);
-    const auto worst = std::ranges::max_element(by_all.standard);
-    if (*worst < kSuspect * median(by_all.standard)) break;
-    const auto place = worst - by_all.standard.begin();
-    std::vector<std::size_t> fewer = kept;
-    fewer.erase(fewer.begin() + place);
-    present = likeliest_sizes(prior, rows_at_places(rows, fewer), joints);
-    const LeftOut by_fewer = left_out_by(prior, present, all);
-    if (by_fewer.standard[static_cast<std::size_t>(place)] <= most_expected(by_fewer)) break;
-    gross.push_back(kept[static_cast<std::size_t>(place)]);
-    kept = std::move(fewer);
+    std::optional<Suspect> worst;
+    for (const std::size_t place : suspects(left_out_by(prior, present, all))) {
+      std::vector<std::size_t> fewer = kept;
+      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(place));
+      const NewRows others = rows_at_places(rows, fewer);
+      BeliefSizes without = likeliest_sizes(prior, others, joints);
+      const double times =
+          left_out_by(prior, without, all).standard[place] / most_expected(left_out_by(prior, without, others));
+      if (times > 1.0 && (!worst || times > worst->times)) worst = Suspect{place, times, std::move(without)};
+    }
+    if (!worst) break;
+    gross.push_back(kept[worst->place]);
+    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst->place));
+    present = std::move(worst->without);
   }
   for (std::size_t& place : gross) place = rows.field.poses[place];
   std::ranges::sort(gross);

@@ -100,11 +100,6 @@ std::vector<double> variances_within(const CalibratedModel& model, const Assumed
   return result;
 }
 
-/// Teeth and encoders stay as they were made; lost motion, and what springs and weights do, need not.
-double usual_drift(const Effect& effect, const AssumedDrift& drift) {
-  return cause_of(effect.kind).group == CauseGroup::transmission ? drift.transmission_rad : drift.effect_motion;
-}
-
 /// The variance of what the model's effects do to a joint within the range it knows, rad^2.
 double ripple_variance(const CalibratedModel& model, const CorrectedRobot& robot, const Robot& described, int joint) {
   constexpr int kDraws = 200;
@@ -124,7 +119,12 @@ double ripple_variance(const CalibratedModel& model, const CorrectedRobot& robot
   return std::max(0.0, (squares - sum * sum / kDraws) / (kDraws - 1));
 }
 
-/// Root mean square of what a unit of each coefficient moves, over poses.
+}  // namespace
+
+bool is_of_transmission(const Effect& effect) {
+  return cause_of(effect.kind).group == CauseGroup::transmission;
+}
+
 std::vector<std::vector<double>> unit_motion_sizes(const CorrectedRobot& robot, const DataSet& data,
                                                    std::span<const std::size_t> poses) {
   std::vector<std::vector<double>> sums(robot.effects.size());
@@ -144,8 +144,6 @@ std::vector<std::vector<double>> unit_motion_sizes(const CorrectedRobot& robot, 
   }
   return sums;
 }
-
-}  // namespace
 
 PriorModel::PriorModel(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
                        std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift)
@@ -180,7 +178,10 @@ void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& da
       link_drift_[i] = size * size;
     } else {
       const double motion = motions[static_cast<std::size_t>(id.index)][static_cast<std::size_t>(id.coefficient)];
-      const double drifts = usual_drift(robot_.effects[static_cast<std::size_t>(id.index)], drift);
+      // Teeth and encoders stay as they were made; lost motion, and what springs and weights do, need not.
+      const double drifts = is_of_transmission(robot_.effects[static_cast<std::size_t>(id.index)])
+                                ? drift.transmission_rad
+                                : drift.effect_motion;
       effect_drift_[i] = motion > 0.0 ? std::pow(drifts / motion, 2.0) : 0.0;
     }
     Eigen::Index known = -1;

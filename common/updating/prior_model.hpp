@@ -11,6 +11,7 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
+#include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
@@ -31,6 +32,14 @@ struct AssumedDrift {
   double effect_motion = 1e-4;     ///< of other effects' motions, rad or m
   double ripple_rad = 3e-5;        ///< of a joint over its turn
 };
+
+/// Root mean square of what a unit of each coefficient of the robot's effects moves at the poses, rad or m: by effect
+/// and coefficient, wherever the effect was found.
+std::vector<std::vector<double>> unit_motion_sizes(const CorrectedRobot& robot, const DataSet& data,
+                                                   std::span<const std::size_t> poses);
+
+/// Whether the effect is of gears and encoders: their errors drift as AssumedDrift::transmission_rad.
+bool is_of_transmission(const Effect& effect);
 
 /// Parts of the belief whose sizes new poses may change: each is multiplied by a factor that they make likeliest.
 enum class BeliefPart { links, effects, outside, ripple };

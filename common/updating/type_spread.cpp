@@ -93,4 +93,30 @@ TypeSpread type_spread(std::span<const KnownNumbers> robots, std::span<const int
   return {last.mean, last.mean_covariance, variance.cwiseSqrt(), freedom / (freedom - 2.0)};
 }
 
+Eigen::VectorXd group_spread(std::span<const KnownNumbers> models, std::span<const int> groups,
+                             const Eigen::VectorXd& mean_precision) {
+  constexpr int kMostRounds = 300;
+  constexpr double kNumbersOfBelief = 4.0, kSettled = 1e-3;
+  const auto of_numbers = [&](const Eigen::VectorXd& of_groups) {
+    Eigen::VectorXd result(mean_precision.size());
+    for (std::size_t i = 0; i < groups.size(); ++i) result[static_cast<Eigen::Index>(i)] = of_groups[groups[i]];
+    return result;
+  };
+  const int count = groups.empty() ? 0 : *std::ranges::max_element(groups) + 1;
+  Eigen::VectorXd variance = Eigen::VectorXd::Ones(count);
+  for (int round = 0; round < kMostRounds; ++round) {
+    const Expected now = expected(models, of_numbers(variance), mean_precision);
+    Eigen::VectorXd squares = Eigen::VectorXd::Constant(count, kNumbersOfBelief), weights = squares;
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+      squares[groups[i]] += now.squares[static_cast<Eigen::Index>(i)];
+      weights[groups[i]] += static_cast<double>(models.size());
+    }
+    const Eigen::VectorXd next = squares.cwiseQuotient(weights);
+    const bool settled = (next - variance).cwiseAbs().cwiseQuotient(variance).maxCoeff() < kSettled;
+    variance = next;
+    if (settled) break;
+  }
+  return variance.cwiseSqrt();
+}
+
 }  // namespace demecal::inline updating

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/make_report.hpp"
+#include "updating/learned_drift.hpp"
 #include "updating/update.hpp"
 #include "workflows/workflows.hpp"
 
@@ -79,11 +81,11 @@ double unseen_rms_mm(const DataSet& data, const CalibrateResult& result) {
 
 }  // namespace
 
-CalibrateResult update_model(const DataSet& data, const Job& job, const CalibratedModel& found_before,
-                             const RoundWatcher& watch) {
+CalibrateResult update_model(const DataSet& data, const Job& job, const NamedModel& found_before,
+                             const RoundWatcher& watch, const std::vector<NamedModel>& earlier) {
   constexpr std::size_t kManyPoses = 150;
   const auto begin = std::chrono::steady_clock::now();
-  CalibratedModel prior = found_before;
+  CalibratedModel prior = found_before.model;
   if (prior.fleet) prior.robot.tools = nominal_robot(data).tools;  // the new robot's: a fleet has none
   prior.robot = with_tools_of_stations(std::move(prior.robot), data);
   require_same_nominal_arm(prior, data);
@@ -96,8 +98,14 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
   preparation.registered = placed_in(data, calibration, preparation.nominal);
   preparation.declared = placed_in(data, calibration, old);
   result.before = preparation.declared.robot;
+  LearnedDrift learned;
+  if (!earlier.empty()) {
+    std::vector<NamedModel> models{found_before};
+    models.insert(models.end(), earlier.begin(), earlier.end());
+    learned = learned_drift(models, data, calibration);
+  }
   const auto updated_by = [&](const std::vector<std::size_t>& poses) {
-    Update update = updated(prior, result.before, data, poses, job.declared);
+    Update update = updated(prior, result.before, data, poses, job.declared, learned.drift);
     update.robot = without_negligible_corrections(data, std::move(update.robot));
     return update;
   };
@@ -133,7 +141,8 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const Calibrat
                   .approach_recorded = prior.approach_recorded,
                   .seed = job.seed,
                   .version = DEMECAL_VERSION};
-  result.remarks = update.sentences;
+  if (!learned.sentence.empty()) result.remarks.push_back(learned.sentence);
+  std::ranges::copy(update.sentences, std::back_inserter(result.remarks));
   if (calibration.size() >= kManyPoses && unseen && job.closed_loop.max_effects > 0) {
     Diagnosis anew = diagnose(data, job, std::nullopt, watch);
     result.end = anew.result.end;

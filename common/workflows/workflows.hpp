@@ -39,6 +39,7 @@
 #include "structure/structure_fit.hpp"
 #include "studies/study.hpp"
 #include "trials/finding.hpp"
+#include "updating/fleet_model.hpp"
 
 namespace demecal::inline workflows {
 /// Told what happens in a calibration, as it happens. The result does not depend on it.
@@ -128,11 +129,12 @@ struct Diagnosis {
 Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
                    const RoundWatcher& watch, const SearchExplanations& search = search_explanations);
 
-/// Brings `prior`, a model found before, up to date: see updated(). Of many poses the loop's own model is kept where it
+/// Brings `prior`, a model found before, up to date: see updated(); `earlier` models of the robot, if any, tell how far
+/// it drifts (learned_drift()). Of many poses the loop's own model is kept where it
 /// leaves less of unseen validation poses; it ends early when `watch` returns false. Throws InputError for data that
 /// base and tool cannot be fitted to.
-CalibrateResult update_model(const DataSet& data, const Job& job, const CalibratedModel& prior,
-                             const RoundWatcher& watch);
+CalibrateResult update_model(const DataSet& data, const Job& job, const NamedModel& prior, const RoundWatcher& watch,
+                             const std::vector<NamedModel>& earlier = {});
 
 /// Throws InputError where the model has another number of joints than the data set's arm, or no tool for a target.
 void require_same_arm(const CorrectedRobot& robot, const DataSet& data);

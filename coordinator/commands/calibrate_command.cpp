@@ -43,7 +43,8 @@ namespace demecal {
 namespace {
 
 struct CalibrateRequest {
-  std::string job_file, out, resume, data_file, prior_file, method;
+  std::string job_file, out, resume, data_file, method;
+  std::vector<std::string> prior_files;
   std::vector<std::string> declared;
   WorkerArguments workers;
   std::optional<std::uint64_t> seed;
@@ -181,10 +182,10 @@ class ObserverPair final : public CalibrationObserver {
 };
 
 ExitCode run_calibrate(CalibrateRequest request) {
-  if (!request.prior_file.empty()) {
+  if (!request.prior_files.empty()) {
     if (request.out.empty() || !request.resume.empty())
       throw ArgumentError("--prior needs --out, and cannot be resumed: it takes seconds");
-    return run_with_prior({.prior_file = request.prior_file,
+    return run_with_prior({.prior_files = request.prior_files,
                            .out = request.out,
                            .job = job_of(request),
                            .declared_stated = !request.declared.empty(),
@@ -269,9 +270,11 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--max-effects", request->max_effects, "effects the closed loop may add (default: the job's)")
       ->check(not_negative());
   command->add_option("--data", request->data_file, "data set in place of the job's");
-  command->add_option(
-      "--prior", request->prior_file,
-      "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free; nothing is evolved");
+  command
+      ->add_option("--prior", request->prior_files,
+                   "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free; nothing "
+                   "is evolved. Given again for earlier models: they tell how far the robot drifts")
+      ->allow_extra_args(false);
   command
       ->add_option("--declare", request->declared,
                    "LIST of what the model contains, in place of the job's or, with --prior, of the prior's")

@@ -50,7 +50,8 @@ namespace {
 
 struct DiagnoseRequest {
   std::vector<std::string> data_files;
-  std::string model_file, prior_file, out;
+  std::string model_file, out;
+  std::vector<std::string> prior_files;
   std::vector<std::string> declared;
   std::uint64_t seed = 1;
   ClosedLoopOptions loop;
@@ -104,8 +105,8 @@ void write_proposed(const DiagnoseRequest& request, const DataSet& data, const D
 }
 
 ExitCode run_diagnose(const DiagnoseRequest& request) {
-  if (!request.prior_file.empty()) {
-    return run_with_prior({.prior_file = request.prior_file,
+  if (!request.prior_files.empty()) {
+    return run_with_prior({.prior_files = request.prior_files,
                            .out = request.out,
                            .job = diagnosis_job(request, declared_model(request.declared)),
                            .declared_stated = !request.declared.empty(),
@@ -191,8 +192,10 @@ void add_diagnose(CLI::App& app, ExitCode& exit_code) {
   command->add_option("--out", request->out, "folder for the results")->required();
   command->add_option("--model", request->model_file, "MODEL.yaml to start from, with its corrections and effects");
   command
-      ->add_option("--prior", request->prior_file,
-                   "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free")
+      ->add_option("--prior", request->prior_files,
+                   "MODEL.yaml of this robot, found before: believed as far as it is sure, base and tool free. Given "
+                   "again for earlier models: they tell how far the robot drifts")
+      ->allow_extra_args(false)
       ->excludes(command->get_option("--model"));
   command
       ->add_option("--declare", request->declared,

@@ -24,12 +24,16 @@
 #include "report/report.hpp"
 #include "terminal/report_text.hpp"
 #include "terminal/text.hpp"
+#include "updating/learned_drift.hpp"
 #include "workflows/workflows.hpp"
 
 namespace demecal {
 
 ExitCode run_with_prior(PriorRun run) {
-  const CalibratedModel prior = load_model(run.prior_file);
+  std::vector<NamedModel> models;
+  for (const std::string& file : run.prior_files) models.push_back({file, load_model(file)});
+  require_models_of_one_robot(models);
+  const CalibratedModel& prior = models.front().model;
   const CheckedData checked = load_checked(run.job.data_files, run.job.station_tools, run.force);
   const DataSet& data = checked.data;
   if (!run.declared_stated) run.job.declared = prior.declared;
@@ -52,11 +56,12 @@ ExitCode run_with_prior(PriorRun run) {
   const FilesBeingWritten events(run.out, {kEventFile});
   EventLog event_log(run.out, false, run.job.name, join_as_reporter(run.workers));
   CalibrateResult result = fit_or_report(run.out, run.job.name, checked, [&] {
-    return update_model(data, run.job, prior, [&](const Round& round) {
+    const auto watch = [&](const Round& round) {
       display.on_round(round);
       event_log.on_round(round, data.robot);
       return !interrupt;
-    });
+    };
+    return update_model(data, run.job, models.front(), watch, {models.begin() + 1, models.end()});
   });
   result.check = checked.check;
   const Report report = write_results(run.out, data, result);

@@ -58,5 +58,20 @@ TEST(GrossPoses, IsTheOneOfTwentyThatIs) {
   }
 }
 
+TEST(GrossPoses, IsTheOneOfSixToTwelveThatIs) {
+  for (const int poses : {6, 8, 12}) {
+    for (std::uint64_t seed = 41; seed <= 45; ++seed) {
+      MovedWrist arm = moved_wrist(seed);
+      arm.data = measured_wrist(arm.now, poses, 0, 900 + seed);
+      EXPECT_THAT(arm.update().gross, testing::IsEmpty()) << poses << " " << seed;
+      RandomStream random{9305, seed};
+      const std::size_t at = random.index(static_cast<std::size_t>(poses));
+      *arm.data.poses[at].position_m +=
+          3e-3 * Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+      EXPECT_THAT(arm.update().gross, testing::ElementsAre(at)) << poses << " " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace demecal

@@ -98,7 +98,7 @@ TEST(UpdateModel, SaysThatItWasInterruptedThoughItKeepsTheOldModel) {
   const CalibratedModel found = diagnose(data, diagnosing_job(kSmooth), {}, {}).result.model;
   const Job bare = diagnosing_job({.registration = true});  // which leaves a model of its own worse than the old one
   int rounds = 0;
-  const CalibrateResult result = update_model(data, bare, found, [&](const Round&) { return ++rounds < 1; });
+  const CalibrateResult result = update_model(data, bare, {"found", found}, [&](const Round&) { return ++rounds < 1; });
   EXPECT_EQ(rounds, 1);
   EXPECT_TRUE(result.loop.rounds.empty());
   EXPECT_EQ(result.end, RunEnd::interrupted);

@@ -7,10 +7,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
 #include "config/model_file.hpp"
 #include "data_files/data_set_file.hpp"
+#include "fitting/fit.hpp"
+#include "fitting/stations.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 #include "random/random_stream.hpp"
@@ -26,14 +29,17 @@ std::filesystem::path series_file(const char* letter) {
          fmt::format("series-{}.yaml", letter);
 }
 
-CalibratedModel model_of_series_a() {
+CalibratedModel diagnosed(const DataSet& data) {
   Job job;
   job.name = "bench";
   job.method = Method::diagnose;
   job.explanations.variations = 0;
-  const DataSet data = load_data_set(series_file("a"));
   job.declared = declared_by_default(data);
   return diagnose(data, job, std::nullopt, {}).result.model;
+}
+
+NamedModel model_of_series(const char* letter) {
+  return {fmt::format("series {}", letter), diagnosed(load_data_set(series_file(letter)))};
 }
 
 /// The accept poses, and as many of those for calibration as are asked for.
@@ -56,18 +62,18 @@ struct Accepted {
   double updated_mm = 0.0, placed_mm = 0.0;
 };
 
-Accepted accepted_after(const CalibratedModel& old, const DataSet& data) {
+Accepted accepted_after(const NamedModel& old, const std::vector<NamedModel>& earlier, const DataSet& data) {
   Job job;
   job.name = "bench";
   job.method = Method::diagnose;
-  job.declared = old.declared;
+  job.declared = old.model.declared;
   job.declared.registration = job.declared.tool = true;
-  const CalibrateResult result = update_model(data, job, old, {});
+  const CalibrateResult result = update_model(data, job, old, {}, earlier);
   const std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
   return {error_figures(result.model.robot, data, accept).rms_mm, error_figures(result.before, data, accept).rms_mm};
 }
 
-void print_draws(const char* letter, int poses, const std::vector<Accepted>& draws, bool json) {
+void print_draws(const std::string& series, int poses, const std::vector<Accepted>& draws, bool json) {
   std::vector<double> updated_mm, placed_mm;
   int worse = 0;
   for (const Accepted& draw : draws) {
@@ -78,7 +84,7 @@ void print_draws(const char* letter, int poses, const std::vector<Accepted>& dra
   const double least = std::ranges::min(updated_mm), most = std::ranges::max(updated_mm);
   if (json) {
     fmt::print("{}\n", nlohmann::ordered_json{{"workload", "prior"},
-                                              {"series", letter},
+                                              {"series", series},
                                               {"poses", poses},
                                               {"draws", draws.size()},
                                               {"accept_rms_mm_least", least},
@@ -88,38 +94,74 @@ void print_draws(const char* letter, int poses, const std::vector<Accepted>& dra
                                               {"worse_than_base_and_tool", worse}}
                            .dump());
   } else {
-    fmt::print("{:<7} {:>5} {:>6.3f} {:>7.3f} {:>6.3f} {:>14.3f} {:>3} of {:>3}\n", letter, poses, least,
+    fmt::print("{:<12} {:>5} {:>6.3f} {:>7.3f} {:>6.3f} {:>14.3f} {:>3} of {:>3}\n", series, poses, least,
                median(updated_mm), most, median(placed_mm), worse, draws.size());
   }
   std::fflush(stdout);
 }
 
+/// Draws of poses of a series after `old`; what the line is called.
+void bench_series(const char* letter, const std::string& name, const NamedModel& old,
+                  const std::vector<NamedModel>& earlier, const PriorOptions& options) {
+  const DataSet whole = load_data_set(series_file(letter));
+  for (const int poses : kDrawnPoses) {
+    std::vector<Accepted> draws;
+    for (int draw = options.first_draw; draw < options.first_draw + options.draws; ++draw) {
+      const RandomStream random{800, static_cast<std::uint64_t>(poses), static_cast<std::uint64_t>(draw)};
+      draws.push_back(accepted_after(old, earlier, drawn_from(whole, poses, random)));
+    }
+    print_draws(name, poses, draws, options.json);
+  }
+}
+
+/// Series A, B and 100 poses of C fitted as one arm; the errors of C's accept poses.
+void bench_stations(const PriorOptions& options) {
+  constexpr int kPosesOfC = 100;
+  std::vector<DataSet> whole;
+  for (const char* letter : {"a", "b", "c"}) whole.push_back(load_data_set(series_file(letter)));
+  std::vector<Accepted> draws;
+  for (int draw = options.first_draw; draw < options.first_draw + options.draws; ++draw) {
+    std::vector<DataSet> sets = whole;
+    sets.back() = drawn_from(whole.back(), kPosesOfC, RandomStream{800, kPosesOfC, static_cast<std::uint64_t>(draw)});
+    const std::size_t of_c = poses_of(sets.back(), PoseSet::accept).size();
+    const DataSet data = joined_stations(sets, StationTools::own);
+    std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
+    accept.erase(accept.begin(), accept.end() - static_cast<std::ptrdiff_t>(of_c));
+    const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
+    const Fit placed = fit_registration(data, calibration, {.registration = true, .tool = true},
+                                        with_tools_of_stations(nominal_robot(data), data));
+    draws.push_back(
+        {error_figures(diagnosed(data).robot, data, accept).rms_mm, error_figures(placed.robot, data, accept).rms_mm});
+  }
+  print_draws("c with a, b", kPosesOfC, draws, options.json);
+}
+
 }  // namespace
 
 bool bench_priors(const PriorOptions& options) {
-  constexpr const char* kSeries[] = {"b", "c"};
   for (const char* letter : {"a", "b", "c"}) {
     if (std::filesystem::exists(series_file(letter))) continue;
     fmt::print(stderr, "what an old model is worth was not measured: there is no {}\n",
                series_file(letter).lexically_normal().string());
     return false;
   }
-  const CalibratedModel old = options.model.empty() ? model_of_series_a() : load_model(options.model);
   if (!options.json)
     fmt::print(
-        "rms error on accept poses, mm, of an old model after few new poses\n{:<7} {:>5} {:>6} {:>7} {:>6} {:>14} {}\n",
+        "rms error on accept poses, mm, of an old model after few new poses\n{:<12} {:>5} {:>6} {:>7} {:>6} {:>14} "
+        "{}\n",
         "series", "poses", "least", "median", "most", "base and tool", "worse than these");
-  for (const char* letter : kSeries) {
-    const DataSet whole = load_data_set(series_file(letter));
-    for (const int poses : kDrawnPoses) {
-      std::vector<Accepted> draws;
-      for (int draw = options.first_draw; draw < options.first_draw + options.draws; ++draw) {
-        draws.push_back(accepted_after(
-            old, drawn_from(whole, poses,
-                            RandomStream{800, static_cast<std::uint64_t>(poses), static_cast<std::uint64_t>(draw)})));
-      }
-      print_draws(letter, poses, draws, options.json);
-    }
+  if (options.stations) {
+    bench_stations(options);
+    return true;
+  }
+  const NamedModel old =
+      options.model.empty() ? model_of_series("a") : NamedModel{options.model, load_model(options.model)};
+  if (options.drift) {
+    const NamedModel latest = model_of_series("b");
+    bench_series("c", "c by b", latest, {}, options);
+    bench_series("c", "c by b and a", latest, {old}, options);
+  } else {
+    for (const char* letter : {"b", "c"}) bench_series(letter, letter, old, {}, options);
   }
   return true;
 }

@@ -9,6 +9,8 @@ struct PriorOptions {
   std::string model;  ///< file of the old model; empty: series A is diagnosed first, without evolution
   int draws = 5;      ///< of poses, for each number of them
   int first_draw = 1;
+  bool drift = false;  ///< instead, series C after a model of B alone and with that of A, which tells the robot's drift
+  bool stations = false;  ///< instead, series A, B and 100 poses of C as stations of one calibration without a prior
   bool json = false;
 };
 
