@@ -33,8 +33,8 @@ struct JointSummary {
 };
 
 /// One summary per joint of `robot`, without notes. `declared`: the joints' errors before anything but the declared
-/// numbers was in the model; `now`: what they are of the robot without its corrections. Errors are 0 where there are
-/// no targets.
+/// numbers was in the model; `now`: what they are of the robot without its corrections. Errors are NaN where there
+/// are no targets.
 std::vector<JointSummary> joint_summaries(const JointTargets& declared, const JointTargets& now,
                                           const CorrectedRobot& robot);
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,7 +32,7 @@ namespace {
 /// A jump smaller than this moves a tool a metre away by less than a hundredth of a millimetre.
 constexpr double kSmallestJumpRad = 1e-5;
 
-/// Mean absolute of the joint's target error less `correction`, over poses that have one.
+/// Mean absolute of the joint's target error less `correction`, over poses that have one; NaN: none has.
 double mean_abs_rad(const JointTargets& targets, int joint, const JointCorrection& correction) {
   double sum = 0.0;
   std::size_t counted = 0;
@@ -40,7 +41,7 @@ double mean_abs_rad(const JointTargets& targets, int joint, const JointCorrectio
     sum += std::abs(targets.error[row][joint] - correction(targets.commanded[row][joint]));
     ++counted;
   }
-  return counted > 0 ? sum / static_cast<double>(counted) : 0.0;
+  return counted > 0 ? sum / static_cast<double>(counted) : std::numeric_limits<double>::quiet_NaN();
 }
 
 std::string why_neutral(const Job& job, std::span<const JointCandidates> candidates, const DataSet& data, int joint) {

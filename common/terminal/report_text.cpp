@@ -154,7 +154,22 @@ std::string as_evolved(const Report& report) {
                  2);
 }
 
+/// Where joints had no targets, as beside an old model: how far they are corrected.
+std::string corrections_alone(const Report& report) {
+  std::string text = fmt::format("  {:<8}{:>16}\n", "joint", "corrected, mrad");
+  for (const JointEntry& joint : report.joints) {
+    const std::string most = joint.kept && joint.bound_rad ? fmt::format("up to {:.3g}", 1e3 * *joint.bound_rad) : "–";
+    const std::string figures = "  " + left_aligned(std::to_string(joint.joint), 8) + right_aligned(most, 16) + "  ";
+    text += wrapped(figures, joint.kept ? correction_words(joint) : "neutral: " + joint.note, figures.size() + 1);
+  }
+  return text;
+}
+
 std::string joints(const Report& report) {
+  const bool told = std::ranges::any_of(report.joints, [](const JointEntry& joint) {
+    return joint.mean_abs_error_rad.before || joint.mean_abs_error_rad.after;
+  });
+  if (!told) return corrections_alone(report) + as_evolved(report);
   std::string text =
       fmt::format("  {:<8}{:>16}{:>16}   {}\n", "joint", "error before", "error after", "mean absolute, rad");
   const auto rad = [](const std::optional<double>& error) { return error ? fmt::format("{:.3e}", *error) : "–"; };

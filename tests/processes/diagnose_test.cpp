@@ -137,6 +137,19 @@ std::string second_station(const SmallJob& job, const std::string& noise_mm = "0
   return job.path("south/dataset.yaml");
 }
 
+TEST(Diagnose, LearnsTheDriftOfARobotFromItsEarlierModels) {
+  const SmallJob job(20, 2, kBacklash);
+  const std::string late = job.path("late/model.yaml"), early = job.path("early/model.yaml");
+  ASSERT_EQ(run("demecal", diagnose(job, "late", {"--max-effects", "0"})).code, 0);
+  ASSERT_EQ(run("demecal", {"diagnose", second_station(job), "--out", job.path("early"), "--max-effects", "0"}).code,
+            0);
+  const Ended ended = run("demecal", diagnose(job, "out", {"--prior", late, "--prior", early}));
+  ASSERT_EQ(ended.code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("drifts between two measurements, by its 2 models"), std::string::npos) << ended.out;
+  EXPECT_EQ(ended.out.find("0.000e+00"), std::string::npos) << "no joint had a target: " << ended.out;
+  EXPECT_EQ(run("demecal", diagnose(job, "refused", {"--prior", late, "--prior", late})).code, 11);
+}
+
 TEST(Diagnose, TellsTheNoiseOfEachStation) {
   const SmallJob job;
   const std::vector<std::string> more{second_station(job, "0.2"), "--declare", "registration,tool,joint_corrections",

@@ -43,6 +43,14 @@ TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
   EXPECT_THAT(text, HasSubstr("noise floor from repeats: 0.051 mm per axis"));
 }
 
+TEST(Terminal, ShowsHowFarJointsAreCorrectedThatHadNoTargets) {
+  Report report = made_up_report();
+  for (JointEntry& joint : report.joints) joint.mean_abs_error_rad = {};
+  const std::string text = to_terminal(report);
+  EXPECT_THAT(text, Not(HasSubstr("error before")));
+  EXPECT_THAT(text, HasSubstr("up to 0.53  " + report.joints.front().short_form));
+}
+
 TEST(Terminal, ShowsTheErrorWithoutSuspectedOutliers) {
   Report report = made_up_report();
   EXPECT_THAT(to_terminal(report), Not(HasSubstr("Without suspected outliers")));
