@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/text.hpp"
@@ -30,14 +31,28 @@ std::vector<ProgrammedStop> programmed_stops(const Plan& plan) {
   return stops;
 }
 
+namespace {
+
+/// With what its head says.
+std::string headed(std::string text, const Plan& plan, const std::string& first_stop, const Language& language) {
+  if (const std::string by_hand = poses_by_hand(plan); !by_hand.empty())
+    text = with_mark(text, language, "Left out, as no free way was found there: " + by_hand);
+  return with_mark(text, language, "Drive to " + first_stop + " by hand first: the way there was not checked");
+}
+
+}  // namespace
+
 std::string planned_program(const Plan& plan, const Chain& arm, const Language& language) {
   const std::vector<ProgrammedStop> stops = programmed_stops(plan);
   if (language.write == nullptr || stops.empty()) return {};
   std::string text = language.write(stops, arm);
-  if (text.empty()) return text;
-  if (const std::string by_hand = poses_by_hand(plan); !by_hand.empty())
-    text = with_mark(text, language, "Left out, as no free way was found there: " + by_hand);
-  return with_mark(text, language, "Drive to " + stops.front().name + " by hand first: the way there was not checked");
+  return text.empty() ? text : headed(std::move(text), plan, stops.front().name, language);
+}
+
+std::string planned_program_beside(const Plan& plan, const Language& language) {
+  const std::vector<ProgrammedStop> stops = programmed_stops(plan);
+  if (language.write_beside == nullptr || stops.empty()) return {};
+  return headed(language.write_beside(stops), plan, stops.front().name, language);
 }
 
 std::string programs_left_out(const Plan& plan, const Chain& arm) {

@@ -17,6 +17,9 @@ std::vector<ProgrammedStop> programmed_stops(const Plan& plan);
 /// leaves out; empty where the language has no targets of such an arm's joints or nothing is driven to.
 std::string planned_program(const Plan& plan, const Chain& arm, const Language& language);
 
+/// The second file of the same program, where programs of the language are two.
+std::string planned_program_beside(const Plan& plan, const Language& language);
+
 /// Why no program is written in languages that plans are otherwise written in, as a sentence; empty: all are.
 std::string programs_left_out(const Plan& plan, const Chain& arm);
 

@@ -79,6 +79,9 @@ struct Language {
   /// A program that drives to stops given by joints, each joint on its own, and waits where they say; empty where the
   /// language has no targets of such an arm's joints. None: nothing writes programs in it.
   std::string (*write)(std::span<const ProgrammedStop> stops, const Chain& arm) = nullptr;
+  /// Where programs are two files, of the second: the file's ending, and what it holds beside that which is written.
+  std::string_view written_beside{};
+  std::string (*write_beside)(std::span<const ProgrammedStop> stops) = nullptr;
 };
 
 }  // namespace demecal::inline parsed_programs

@@ -1,6 +1,5 @@
-// Staubli VAL3: jointRx (j1 to j6 in degrees) and pointRx (x, y, z in mm and rx, ry, rz in degrees, turns about x, the
-// new y and the new z) of data files (.dtx). A point hangs on a frame of the data, or on the world, which is the arm's
-// base. Programs (.pgx), where they are given, tell the tools, and what is not as the data have it.
+// Staubli VAL3: jointRx (degrees) and pointRx (mm, and turns about x, the new y and the new z) of data files (.dtx). A
+// point hangs on a frame of the data, or on the world, which is the arm's base. Programs (.pgx) tell the tools.
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -9,7 +8,6 @@
 #include <map>
 #include <numbers>
 #include <optional>
-#include <ranges>
 #include <set>
 #include <span>
 #include <string>
@@ -31,7 +29,12 @@ namespace {
 constexpr std::array<std::string_view, 6> kJointAttributes{"j1", "j2", "j3", "j4", "j5", "j6"};
 constexpr std::array<std::string_view, 6> kPointAttributes{"x", "y", "z", "rx", "ry", "rz"};
 constexpr CellUnit kOwnAngle{std::numbers::pi / 180.0, kDecimalsDeg};
+const std::vector<CellUnit> kPointUnits{kMillimetres, kMillimetres, kMillimetres, kOwnAngle, kOwnAngle, kOwnAngle};
 constexpr int kDeepestFrame = 20;
+
+bool is_world(const std::string& father) {
+  return father.empty() || father == "world[0]";
+}
 
 class Val3Reader {
  public:
@@ -60,7 +63,7 @@ class Val3Reader {
       if (!of_joints && value.type != "pointRx") continue;
       Target target{.name = value.name, .place = text_.place(value.begin)};
       const auto cells = of_joints ? numbers(value, kJointAttributes, joint_units(arm_), target)
-                                   : numbers(value, kPointAttributes, point_units(), target);
+                                   : numbers(value, kPointAttributes, kPointUnits, target);
       const std::string why = statements_.changed(value.name);
       if (cells && !why.empty()) skip_target(program_, target, why);
       if (!cells || !why.empty()) {
@@ -164,10 +167,6 @@ class Val3Reader {
     if (!tools_.empty()) set_tool(target.frames, only_tool());
   }
 
-  static std::vector<CellUnit> point_units() {
-    return {kMillimetres, kMillimetres, kMillimetres, kOwnAngle, kOwnAngle, kOwnAngle};
-  }
-
   /// The numbers of these attributes, in the order of the names; nothing, and a remark, where some are left out.
   std::optional<std::vector<Cell>> numbers(const Val3Value& value, std::span<const std::string_view> names,
                                            const std::vector<CellUnit>& units, const Target& target) {
@@ -202,8 +201,6 @@ class Val3Reader {
     return std::string(text_.text().substr(found->second.begin, found->second.size));
   }
 
-  static bool is_world(const std::string& father) { return father.empty() || father == "world[0]"; }
-
   /// "lefty epositive wpositive"; each part by itself where one of them is the one before, or any.
   ArmHint configuration(const Val3Value& value) const {
     ArmHint all, each;
@@ -225,7 +222,7 @@ class Val3Reader {
     for (std::size_t i = 0; i < inside.size(); ++i) {
       const auto found = value.attributes.find(std::string(kPointAttributes[i]));
       if (found == value.attributes.end()) continue;
-      const auto cell = cell_at(text_.text(), found->second.begin, found->second.size, point_units()[i]);
+      const auto cell = cell_at(text_.text(), found->second.begin, found->second.size, kPointUnits[i]);
       if (!cell) return std::nullopt;
       inside[i] = cell->inside();
     }
@@ -293,7 +290,10 @@ Language val3_language() {
           .comment_end = " -->",
           .headers = {"<?xml"},
           .of_several_files = true,
-          .read = [](const ReaderInput& input) { return Val3Reader(input).read(); }};
+          .read = [](const ReaderInput& input) { return Val3Reader(input).read(); },
+          .write = val3_written_data,
+          .written_beside = "pgx",
+          .write_beside = val3_written_program};
 }
 
 }  // namespace demecal::inline staubli_kawasaki

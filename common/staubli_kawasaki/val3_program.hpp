@@ -7,9 +7,12 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "kinematics/chain.hpp"
+#include "parsed_programs/language.hpp"
 #include "parsed_programs/program.hpp"
 #include "parsed_programs/program_text.hpp"
 
@@ -112,5 +115,9 @@ class Val3Statements {
   std::map<std::size_t, std::string> computed_, calls_elsewhere_;
   std::vector<Val3Nearby> nearby_;
 };
+
+/// What a program of Language::write drives to and how fast, a data file; and the program, which is named "program".
+std::string val3_written_data(std::span<const ProgrammedStop> stops, const Chain& arm);
+std::string val3_written_program(std::span<const ProgrammedStop> stops);
 
 }  // namespace demecal::inline staubli_kawasaki

@@ -48,7 +48,7 @@ struct Suspect {
 
 /// The places of what may be gross, the worst first. Among few poses one that is bends what the others predict so far
 /// that another may look worse.
-std::vector<std::size_t> suspects(const LeftOut& found) {
+std::vector<std::size_t> suspected_places(const LeftOut& found) {
   constexpr double kSuspect = 2.0;
   constexpr std::size_t kFew = 20, kMost = 8;
   std::vector<std::size_t> places(found.standard.size());
@@ -106,7 +106,7 @@ std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& row
   for (std::size_t searched = 0; searched < most; ++searched) {
     const NewRows all = rows_at_places(rows, kept);
     std::optional<Suspect> worst;
-    for (const std::size_t place : suspects(left_out_by(prior, present, all))) {
+    for (const std::size_t place : suspected_places(left_out_by(prior, present, all))) {
       std::vector<std::size_t> fewer = kept;
       fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(place));
       const NewRows others = rows_at_places(rows, fewer);

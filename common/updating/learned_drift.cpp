@@ -86,7 +86,7 @@ InUnitsOfDrift in_units_of_drift(const FleetNumbers& numbers, const CorrectedRob
   return result;
 }
 
-[[noreturn]] void refuse(const NamedModel& model, const std::string& what) {
+[[noreturn]] void refuse_to_learn(const NamedModel& model, const std::string& what) {
   throw InputError({model.file, 0}, model.model.data_name, what);
 }
 
@@ -96,25 +96,28 @@ void require_models_of_one_robot(const std::vector<NamedModel>& models) {
   if (models.size() < 2) return;
   const NamedModel& first = models.front();
   for (const NamedModel& one : models) {
-    if (one.model.fleet) refuse(one, "is a fleet's mean: how a robot drifts is told by models of that robot alone");
+    if (one.model.fleet)
+      refuse_to_learn(one, "is a fleet's mean: how a robot drifts is told by models of that robot alone");
     if (!one.model.posterior)
-      refuse(one, "states no covariance of its numbers (it is of an older version): calibrate again");
+      refuse_to_learn(one, "states no covariance of its numbers (it is of an older version): calibrate again");
     const std::string difference = first_difference(first.model.nominal.chain, one.model.nominal.chain);
     if (!difference.empty())
-      refuse(one, fmt::format("is another arm than that of {}: {}; how a robot drifts is told by models of that robot "
-                              "alone",
-                              first.file, difference));
+      refuse_to_learn(
+          one, fmt::format("is another arm than that of {}: {}; how a robot drifts is told by models of that robot "
+                           "alone",
+                           first.file, difference));
     const auto same = std::ranges::find_if(models, [&](const NamedModel& other) {
       return &other < &one && !one.model.data_sha256.empty() && other.model.data_sha256 == one.model.data_sha256;
     });
     if (same != models.end())
-      refuse(one, fmt::format("is what {} was calibrated from as well: models of the same poses do not tell how the "
-                              "robot drifts between two measurements",
-                              same->file));
+      refuse_to_learn(
+          one, fmt::format("is what {} was calibrated from as well: models of the same poses do not tell how the "
+                           "robot drifts between two measurements",
+                           same->file));
     const std::string latest = first.model.certificate.text("date"), date = one.model.certificate.text("date");
     if (!latest.empty() && date > latest)
-      refuse(one, fmt::format("was measured on {}, later than {} of {}: the latest model is to be named first", date,
-                              latest, first.file));
+      refuse_to_learn(one, fmt::format("was measured on {}, later than {} of {}: the latest model is to be named first",
+                                       date, latest, first.file));
   }
 }
 

@@ -117,7 +117,10 @@ std::vector<NamedText> files_of(const Plan& plan, const PlanRequest& request, co
       {"plan.html", plan_html(plan, request)}};
   for (const Language& language : all_languages()) {
     std::string text = planned_program(plan, request.robot.chain, language);
-    if (!text.empty()) files.push_back({"program." + std::string(written_ending(language)), std::move(text)});
+    if (text.empty()) continue;
+    files.push_back({"program." + std::string(written_ending(language)), std::move(text)});
+    if (std::string beside = planned_program_beside(plan, language); !beside.empty())
+      files.push_back({"program." + std::string(language.written_beside), std::move(beside)});
   }
   return files;
 }

@@ -62,6 +62,27 @@ TEST(PlannedPrograms, LeaveOutWhatNoFreeWayLeadsToAndSaySo) {
   EXPECT_GE(written, 5);
 }
 
+TEST(PlannedPrograms, OfTwoFilesAreReadBackTogether) {
+  const Chain arm = wrist_arm();
+  const Plan plan = plan_with_a_pose_by_hand(arm);
+  int written = 0;
+  for (const Language& language : all_languages()) {
+    const std::string beside = planned_program_beside(plan, language);
+    if (beside.empty()) continue;
+    SCOPED_TRACE(language.name);
+    ++written;
+    EXPECT_THAT(beside, testing::AllOf(testing::HasSubstr("Left out"), testing::HasSubstr("P2: measure")));
+    const ProgramSource source({{"program.dtx", planned_program(plan, arm, language)}, {"program.pgx", beside}});
+    const Program program = read_program(language, source, arm);
+    EXPECT_THAT(program.uncorrected, testing::IsEmpty());
+    EXPECT_THAT(program.remarks, testing::IsEmpty());
+    ASSERT_EQ(program.targets.size(), plan.way.stops.size());
+    for (std::size_t i = 1; i < program.targets.size(); ++i)
+      EXPECT_LT(program.targets[i - 1].order, program.targets[i].order) << "driven to in the plan's order";
+  }
+  EXPECT_EQ(written, 1);
+}
+
 TEST(PlannedPrograms, SayWhereTheRailStandsOrThatTheyCannot) {
   Chain arm = wrist_arm();
   Joint rail;
