@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 #include "errors/check.hpp"
@@ -14,34 +13,71 @@ namespace {
 
 // A tile of the product is summed up in registers, term after term, and a term is rounded twice: so there are the same
 // bits with two numbers to a register and with eight, which libraries for this do not promise.
-constexpr Eigen::Index kTileRows = 6, kTileColumns = 8;
+constexpr int kTileRows = 6, kTileColumns = 8;
 constexpr Eigen::Index kTile = kTileRows * kTileColumns;
 constexpr Eigen::Index kTerms = 256;         ///< summed up at a time, so that what they take stays near the processor
 constexpr Eigen::Index kRowsOfPiece = 2048;  ///< the parts of a sum; a multiple of kTerms
 constexpr Eigen::Index kRowsOfResult = 96;   ///< a multiple of kTileRows
 
 using Packed = std::vector<double>;
-using TileRow = double __attribute__((vector_size(kTileColumns * sizeof(double))));
+
+/// As many doubles as a register holds; `Anywhere`: the same in memory.
+struct TwoNumbers {
+  using InRegister = double __attribute__((vector_size(2 * sizeof(double))));
+  using Anywhere = double __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
+};
+struct FourNumbers {
+  using InRegister = double __attribute__((vector_size(4 * sizeof(double))));
+  using Anywhere = double __attribute__((vector_size(4 * sizeof(double)), aligned(sizeof(double)), may_alias));
+};
+struct EightNumbers {
+  using InRegister = double __attribute__((vector_size(8 * sizeof(double))));
+  using Anywhere = double __attribute__((vector_size(8 * sizeof(double)), aligned(sizeof(double)), may_alias));
+};
 
 Eigen::Index tiles_for(Eigen::Index count, Eigen::Index each) {
   return (count + each - 1) / each;
 }
 
-/// Adds to a tile the products of `terms` columns of kTileRows numbers with rows of kTileColumns.
-DEMECAL_FOR_EACH_VECTOR_UNIT
+/// Adds to a tile the products of `terms` columns of kTileRows numbers with rows of kTileColumns, so many registers of
+/// a row at a time that all their sums stay in registers.
+template <typename Numbers, int kRegisters>
+[[gnu::always_inline]] inline void add_terms(Eigen::Index terms, const double* left, const double* right,
+                                             double* tile) {
+  using InRegister = typename Numbers::InRegister;
+  using Anywhere = typename Numbers::Anywhere;
+  constexpr int kNumbers = sizeof(InRegister) / sizeof(double), kSums = kTileRows * kRegisters;
+  for (int first = 0; first < kTileColumns; first += kRegisters * kNumbers) {
+    InRegister sums[kSums] = {};
+    const double *column = left, *row = right + first;
+    for (Eigen::Index term = 0; term < terms; ++term, column += kTileRows, row += kTileColumns) {
+      InRegister factors[kRegisters];
+      for (int i = 0; i < kRegisters; ++i) factors[i] = *reinterpret_cast<const Anywhere*>(row + i * kNumbers);
+#pragma GCC unroll 12
+      for (int i = 0; i < kSums; ++i) sums[i] += column[i / kRegisters] * factors[i % kRegisters];
+    }
+    for (int i = 0; i < kSums; ++i) {
+      double* const to = tile + i / kRegisters * kTileColumns + first + i % kRegisters * kNumbers;
+      *reinterpret_cast<Anywhere*>(to) += sums[i];
+    }
+  }
+}
+
+#if defined(DEMECAL_VECTOR_UNIT)
+DEMECAL_VECTOR_UNIT("arch=x86-64-v4")
 void add_to_tile(Eigen::Index terms, const double* left, const double* right, double* tile) {
-  TileRow sums[kTileRows] = {};
-  for (Eigen::Index term = 0; term < terms; ++term, left += kTileRows, right += kTileColumns) {
-    TileRow row;
-    std::memcpy(&row, right, sizeof row);
-    for (Eigen::Index i = 0; i < kTileRows; ++i) sums[i] += left[i] * row;
-  }
-  for (Eigen::Index i = 0; i < kTileRows; ++i) {
-    TileRow sum;
-    std::memcpy(&sum, tile + i * kTileColumns, sizeof sum);
-    sum += sums[i];
-    std::memcpy(tile + i * kTileColumns, &sum, sizeof sum);
-  }
+  add_terms<EightNumbers, 1>(terms, left, right, tile);
+}
+
+DEMECAL_VECTOR_UNIT("arch=x86-64-v3")
+void add_to_tile(Eigen::Index terms, const double* left, const double* right, double* tile) {
+  add_terms<FourNumbers, 2>(terms, left, right, tile);
+}
+
+DEMECAL_VECTOR_UNIT("default")
+#endif
+void add_to_tile(Eigen::Index terms, const double* left, const double* right, double* tile) {
+  add_terms<TwoNumbers, 2>(terms, left, right, tile);
 }
 
 /// Columns first .. first + width - 1 of the rows, row after row; zeros where there are no such columns.

@@ -10,6 +10,8 @@
 /// multiply-adds are written out. Sanitizers are not ready yet when the program's loader makes the choice.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(DEMECAL_SANITIZED)
 #define DEMECAL_FOR_EACH_VECTOR_UNIT __attribute__((target_clones("default", "arch=x86-64-v3", "arch=x86-64-v4")))
+/// Stands before each of several definitions of one function, of which the machine's own is called.
+#define DEMECAL_VECTOR_UNIT(unit) __attribute__((target(unit)))
 #else
 #define DEMECAL_FOR_EACH_VECTOR_UNIT
 #endif
