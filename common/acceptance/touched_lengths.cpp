@@ -21,6 +21,7 @@
 #include "parameters/posterior.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
+#include "report/length_entries.hpp"
 #include "report/report.hpp"
 
 namespace demecal::inline acceptance {
@@ -144,10 +145,12 @@ void judge_lengths(const CalibratedModel& model, const DataSet& data, std::span<
             "that no calibration pose touches");
   }
   if (after.empty()) {
+    const std::string untold = untold_lengths_sentence(data);
     throw InputError({data.file, 0}, "contact",
                      "the " + certificate.judged_set +
                          " poses touch no two points whose distance is known: without an instrument only such lengths "
-                         "can be judged (contacts.distances in DATASET.yaml)");
+                         "can be judged (contacts.distances in DATASET.yaml)" +
+                         (untold.empty() ? "" : ". " + untold));
   }
   certificate.words = kJudgedLengths;
   certificate.before = errors_of_lengths(before);

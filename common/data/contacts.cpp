@@ -21,6 +21,10 @@ std::string_view to_string(ContactKind kind) {
   return "";
 }
 
+std::string_view KnownDistance::key() const {
+  return of_grid ? "contacts.grids" : second.empty() ? "contacts.radii_mm" : "contacts.distances";
+}
+
 ContactForm Contacts::form_of(const std::string& contact) const {
   const auto found = forms.find(contact);
   return found == forms.end() ? ContactForm{} : found->second;

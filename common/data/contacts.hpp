@@ -29,6 +29,10 @@ struct KnownDistance {
   std::string first, second;
   double length_m = 0.0;
   double sigma_m = 0.0;  ///< its standard uncertainty
+  bool of_grid = false;  ///< one of those between all places of a grid
+
+  /// Where the data set states it.
+  std::string_view key() const;
 };
 
 /// Planes or lines that are parallel, or square to one another.

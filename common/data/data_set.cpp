@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -16,18 +18,54 @@
 namespace demecal::inline data {
 namespace {
 
-std::vector<std::string> distinct_ids(std::span<const MeasuredPose> poses) {
-  std::vector<std::string> ids;
-  std::map<std::string, bool> seen;
-  for (const MeasuredPose& pose : poses) {
-    if (!std::exchange(seen[pose.pose_id], true)) ids.push_back(pose.pose_id);
-  }
-  return ids;
-}
-
 void shuffle(std::vector<std::string>& ids, const DrawIndex& draw) {
   for (std::size_t left = ids.size(); left > 1; --left) std::swap(ids[left - 1], ids[draw(left)]);
 }
+
+struct SetSizes {
+  std::size_t validation = 0, accept = 0;
+};
+
+/// Of so many poses in all; calibration keeps one at least.
+SetSizes sizes_of(std::size_t count, const SplitFractions& fractions) {
+  const auto share = [&](double fraction, std::size_t most) {
+    return std::min(static_cast<std::size_t>(std::lround(fraction * static_cast<double>(count))), most);
+  };
+  const std::size_t validation = share(fractions.validation, count - 1);
+  return {validation, share(fractions.accept, count - 1 - validation)};
+}
+
+/// Of the poses of one contact after another. One touch alone of a set tells nothing of the arm, so every set gets none
+/// or two at least; what a contact's rounding leaves is made up for at the next.
+class SharesOfContacts {
+ public:
+  explicit SharesOfContacts(const SplitFractions& fractions) : fractions_(fractions) {}
+
+  SetSizes next(std::size_t count) {
+    const std::size_t validation = part(count, count, fractions_.validation, owed_validation_);
+    return {validation, part(count, count - validation, fractions_.accept, owed_accept_)};
+  }
+
+ private:
+  static constexpr std::size_t kFewest = 2;
+
+  /// Of the `left` of `count` poses; too few to be divided go to one set together.
+  static std::size_t part(std::size_t count, std::size_t left, double fraction, double& owed) {
+    owed += fraction * static_cast<double>(count);
+    std::size_t taken = 0;
+    if (left >= 2 * kFewest) {
+      taken = std::min(static_cast<std::size_t>(std::lround(std::max(owed, 0.0))), left - kFewest);
+      if (taken < kFewest) taken = 0;
+    } else if (left == count && count >= kFewest && 2.0 * owed >= static_cast<double>(count)) {
+      taken = count;
+    }
+    owed -= static_cast<double>(taken);
+    return taken;
+  }
+
+  SplitFractions fractions_;
+  double owed_validation_ = 0.0, owed_accept_ = 0.0;
+};
 
 }  // namespace
 
@@ -54,6 +92,16 @@ bool names_itself(const MeasuredPose& pose) {
 
 std::string name_beside_line(const MeasuredPose& pose) {
   return names_itself(pose) ? " (" + pose.pose_id + ")" : "";
+}
+
+std::string names_with_lines(const DataSet& data, const std::vector<std::size_t>& poses) {
+  std::string names;
+  for (const std::size_t i : poses) {
+    const MeasuredPose& pose = data.poses[i];
+    const std::string line = line_name(pose.line);
+    names += (names.empty() ? "" : ", ") + (names_itself(pose) ? pose.pose_id + " (" + line + ")" : line);
+  }
+  return names;
 }
 
 std::vector<std::size_t> poses_of(const DataSet& data, PoseSet set) {
@@ -148,19 +196,20 @@ Eigen::Vector3d nominal_tool(const DataSet& data, const MeasuredPose& pose) {
 }
 
 void split_by_pose(std::span<MeasuredPose> poses, const SplitFractions& fractions, const DrawIndex& draw) {
-  std::vector<std::string> ids = distinct_ids(poses);
-  if (ids.empty()) return;
-  shuffle(ids, draw);
-  const auto share = [&](double fraction, std::size_t most) {
-    return std::min(static_cast<std::size_t>(std::lround(fraction * static_cast<double>(ids.size()))), most);
-  };
-  const std::size_t validation = share(fractions.validation, ids.size() - 1);
-  const std::size_t accept = share(fractions.accept, ids.size() - 1 - validation);
+  std::map<std::string, std::vector<std::string>> ids_at;
+  std::set<std::string> seen;
+  for (const MeasuredPose& pose : poses)
+    if (seen.insert(pose.pose_id).second) ids_at[pose.contact].push_back(pose.pose_id);
   std::map<std::string, PoseSet> set_of;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    set_of[ids[i]] = i < validation            ? PoseSet::validation
-                     : i < validation + accept ? PoseSet::accept
-                                               : PoseSet::calibration;
+  SharesOfContacts shares(fractions);
+  for (auto& [contact, ids] : ids_at) {
+    shuffle(ids, draw);
+    const SetSizes sizes = contact.empty() ? sizes_of(ids.size(), fractions) : shares.next(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      set_of[ids[i]] = i < sizes.validation                  ? PoseSet::validation
+                       : i < sizes.validation + sizes.accept ? PoseSet::accept
+                                                             : PoseSet::calibration;
+    }
   }
   for (MeasuredPose& pose : poses) pose.set = set_of[pose.pose_id];
 }

@@ -124,6 +124,9 @@ struct DataSet {
   std::string sha256;               ///< of the bytes the poses were read from
 };
 
+/// Those poses as a sentence names them: "P7 (line 12), line 14", by their lines too, since names may repeat.
+std::string names_with_lines(const DataSet& data, const std::vector<std::size_t>& poses);
+
 /// Indices into poses, in their order.
 std::vector<std::size_t> poses_of(const DataSet& data, PoseSet set);
 
@@ -175,7 +178,8 @@ struct SplitFractions {
 using DrawIndex = std::function<std::size_t(std::size_t)>;
 
 /// Sets every pose's set, by pose id: repeats stay together. Each set gets its fraction of the ids, rounded;
-/// calibration keeps one at least. Equal draws give equal sets.
+/// calibration keeps one at least. The poses of every contact are divided by themselves, so that calibration and
+/// validation see it where enough poses touch it. Equal draws give equal sets.
 void split_by_pose(std::span<MeasuredPose> poses, const SplitFractions& fractions, const DrawIndex& draw);
 
 }  // namespace demecal::inline data

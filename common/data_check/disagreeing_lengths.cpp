@@ -21,6 +21,7 @@
 #include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "prediction/place_uncertainty.hpp"
 #include "trials/finding.hpp"
 
 namespace demecal::inline data_check {
@@ -94,10 +95,11 @@ std::vector<Finding> find_disagreeing_lengths(const DataSet& data, const Correct
         known.first, known.second, millimetres(known.length_m), millimetres(known.length_m + one.error_m),
         to_string(one.set), std::abs(one.error_m) / deviation_m, millimetres(deviation_m));
     const auto radii = std::ranges::count_if(data.contacts.distances, is_radius);
-    finding.sentence += std::ssize(data.contacts.distances) > radii + 1
-                            ? "Known lengths contradict each other, or the model's scale is wrong: check all of "
-                              "contacts.distances, "
-                            : "The length or the model's scale is wrong: check contacts.distances, ";
+    finding.sentence +=
+        std::ssize(data.contacts.distances) > radii + 1
+            ? fmt::format("Known lengths contradict each other, or the model's scale is wrong: check all of {}, ",
+                          fmt::join(length_keys(data.contacts), ", "))
+            : fmt::format("The length or the model's scale is wrong: check {}, ", known.key());
     finding.sentence += is_stated_sphere(data, known.first) || is_stated_sphere(data, known.second)
                             ? "contacts.radii_mm, and the names of the contacts."
                             : "and the names of the contacts.";

@@ -9,18 +9,21 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
+#include "data/stated_radius.hpp"
 #include "data_check/searches.hpp"
-#include "decompositions/decompositions.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/contact_place.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "prediction/place_uncertainty.hpp"
 #include "random/distributions.hpp"
 #include "trials/finding.hpp"
 
@@ -130,6 +133,97 @@ std::string in_words(const ComparedLength& one) {
                      one.known->second, millimetres(one.known->length_m), millimetres(one.by_arm_m));
 }
 
+using NamePair = std::pair<std::string, std::string>;
+
+/// Known lengths, some of them wrong in all sets, against the places that poses touch.
+class ExchangedPlaces {
+ public:
+  ExchangedPlaces(const std::vector<KnownDistance>& lengths, const MedianPlaces& places, double apart_m)
+      : lengths_(lengths), places_(places), apart_m_(apart_m) {}
+
+  /// The pairs of names of which one exchange alone makes all lengths right: the symmetry of a grid has several alike.
+  std::vector<NamePair> all() const {
+    constexpr std::size_t kFewestWrong = 2;  // one length alone is as wrong as its ends may be
+    constexpr double kAlike = 4.0;           // times the least squares
+    std::set<std::string> suspects, names;
+    std::size_t wrong = 0;
+    for (const KnownDistance& known : lengths_) {
+      if (is_radius(known)) continue;
+      names.insert({known.first, known.second});
+      if (squares_m2(known)) continue;
+      ++wrong;
+      suspects.insert({known.first, known.second});
+    }
+    if (wrong < kFewestWrong) return {};
+    std::map<NamePair, double> left_m2;
+    for (const std::string& first : suspects)
+      for (const std::string& second : names)
+        if (first != second)
+          if (const auto left = squares_m2(NamePair{std::min(first, second), std::max(first, second)}))
+            left_m2[{std::min(first, second), std::max(first, second)}] = *left;
+    double least_m2 = std::numeric_limits<double>::infinity();
+    for (const auto& [pair, left] : left_m2) least_m2 = std::min(least_m2, left);
+    std::vector<NamePair> alike;
+    for (const auto& [pair, left] : left_m2)
+      if (left <= kAlike * least_m2) alike.push_back(pair);
+    return alike;
+  }
+
+ private:
+  /// Of one length in all sets; nothing where it is wrong in any.
+  std::optional<double> squares_m2(const KnownDistance& known) const {
+    double squares = 0.0;
+    for (const ComparedLength& one : compared(known, places_, apart_m_)) {
+      if (one.is_wrong(apart_m_)) return std::nullopt;
+      squares += std::pow(one.by_arm_m - known.length_m, 2);
+    }
+    return squares;
+  }
+
+  /// Of all lengths with these names exchanged.
+  std::optional<double> squares_m2(const NamePair& pair) const {
+    double squares = 0.0;
+    for (KnownDistance known : lengths_) {
+      if (is_radius(known)) continue;
+      for (std::string* name : {&known.first, &known.second})
+        if (*name == pair.first || *name == pair.second) *name = *name == pair.first ? pair.second : pair.first;
+      const std::optional<double> own = squares_m2(known);
+      if (!own) return std::nullopt;
+      squares += *own;
+    }
+    return squares;
+  }
+
+  const std::vector<KnownDistance>& lengths_;
+  const MedianPlaces& places_;
+  double apart_m_;
+};
+
+/// Lengths that are all right once two names are exchanged: `one` is the first that is wrong.
+Finding of_exchanged_places(const ComparedLength& one, const std::vector<NamePair>& pairs, const DataSet& data) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> words;
+  for (const auto& [first, second] : pairs) words.push_back(fmt::format("'{}' and '{}'", first, second));
+  if (words.size() > kMost) {
+    const std::size_t more = words.size() - kMost;
+    words.resize(kMost);
+    words.back() += fmt::format(" (or one of {} other pairs)", more);
+  }
+  Finding finding{.kind = FindingKind::targets_exchanged,
+                  .as_given_mm = millimetres(std::abs(one.by_arm_m - one.known->length_m))};
+  finding.sentence =
+      in_words(one) +
+      fmt::format(
+          ": all known lengths agree once the names of {} are exchanged{}. Correct the names of the poses, or {}.",
+          fmt::join(words, ", or of "),
+          pairs.size() > 1 ? ", which the lengths between the places cannot tell apart" : "", one.known->key());
+  if (pairs.size() > 1) return finding;
+  for (const MeasuredPose& pose : data.poses)
+    if (pose.contact == pairs.front().first || pose.contact == pairs.front().second)
+      finding.poses.push_back(pose.pose_id);
+  return finding;
+}
+
 /// A length that no set of poses has as it is given: `one` is one of them.
 Finding wrong_everywhere(const ComparedLength& one) {
   const LengthUnit* const unit = one.unit();
@@ -139,11 +233,10 @@ Finding wrong_everywhere(const ComparedLength& one) {
               in_words(one) +
               (unit == nullptr
                    ? fmt::format(" ({:.3g} times as far), which no error of this arm explains: correct the length or "
-                                 "the names under contacts.distances, or the robot's lengths.",
-                                 one.by_arm_m / one.known->length_m)
-                   : fmt::format(": the length fits if it is in {} where millimetres are stated. Give "
-                                 "contacts.distances in mm.",
-                                 unit->name))};
+                                 "the names under {}, or the robot's lengths.",
+                                 one.by_arm_m / one.known->length_m, one.known->key())
+                   : fmt::format(": the length fits if it is in {} where millimetres are stated. Give {} in mm.",
+                                 unit->name, one.known->key()))};
 }
 
 /// A length that other sets have as it is given.
@@ -165,62 +258,30 @@ Finding wrong_in_one_set(const ComparedLength& one, const DataSet& data, const M
   return finding;
 }
 
-/// A place moved by one of its motions.
-ContactPlace nudged(ContactPlace place, int motion, double step) {
-  const Eigen::Matrix3d axes = place.frame.linear();
-  if (motion == kRadiusMotion) {
-    place.radius_m += step;
-  } else if (motion < 3) {
-    place.frame.translation() += step * axes.col(motion);
-  } else {
-    const Eigen::Vector3d axis = axes.col(motion - 3);
-    place.frame.linear() = Eigen::AngleAxisd(step, axis) * axes;
-  }
-  return place;
-}
-
 }  // namespace
-
-double placed_m2(const ContactPlace& own, const std::vector<Touch>& touches, const ContactPlace& other,
-                 double noise_m) {
-  constexpr double kStep = 1e-6, kUnseen = 1e-9;
-  const std::vector<int> motions = motions_of(own);
-  const Eigen::Index each = rows_of(own.kind);
-  Eigen::MatrixXd rows(each * std::ssize(touches), std::ssize(motions));
-  Eigen::VectorXd slopes(std::ssize(motions));
-  for (Eigen::Index k = 0; k < slopes.size(); ++k) {
-    const ContactPlace moved = nudged(own, motions[static_cast<std::size_t>(k)], kStep);
-    slopes[k] = (place_distance(moved, other).length_m - place_distance(own, other).length_m) / kStep;
-    for (Eigen::Index i = 0; i < std::ssize(touches); ++i) {
-      const Touch& touch = touches[static_cast<std::size_t>(i)];
-      rows.block(each * i, k, each, 1) = (contact_residual(moved, touch) - contact_residual(own, touch)) / kStep;
-    }
-  }
-  const auto information = eigen_system(rows.transpose() * rows);
-  const double least = kUnseen * information.values.maxCoeff();
-  double open_m2 = 0.0;
-  for (Eigen::Index i = 0; i < slopes.size(); ++i) {
-    const double slope = information.vectors.col(i).dot(slopes);
-    if (information.values[i] > least)
-      open_m2 += slope * slope / information.values[i];
-    else if (std::abs(slope) > kUnseen)
-      return std::numeric_limits<double>::infinity();
-  }
-  return noise_m * noise_m * open_m2;
-}
 
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m) {
   const MedianPlaces places = median_places(data, robot);
   std::vector<Finding> found;
+  std::optional<std::vector<NamePair>> exchanged;  // looked for where a length is wrong in all sets
   for (const KnownDistance& known : data.contacts.distances) {
     const std::vector<ComparedLength> all = compared(known, places, apart_m);
     const auto is_wrong = [apart_m](const ComparedLength& one) { return one.is_wrong(apart_m); };
     const auto first = std::ranges::find_if(all, is_wrong);
     if (first == all.end()) continue;
     const bool everywhere = std::ranges::all_of(all, is_wrong);
+    if (everywhere && !exchanged) exchanged = ExchangedPlaces(data.contacts.distances, places, apart_m).all();
+    if (everywhere && !exchanged->empty()) return {of_exchanged_places(*first, *exchanged, data)};
     found.push_back(everywhere ? wrong_everywhere(*first) : wrong_in_one_set(*first, data, places));
   }
   return worst_lengths(std::move(found));
+}
+
+std::vector<std::string_view> length_keys(const Contacts& contacts) {
+  std::vector<std::string_view> keys;
+  for (const KnownDistance& known : contacts.distances)
+    if (!is_radius(known) && std::ranges::find(keys, known.key()) == keys.end()) keys.push_back(known.key());
+  return keys;
 }
 
 std::vector<Finding> worst_lengths(std::vector<Finding> found) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "data/contacts.hpp"
@@ -64,6 +65,13 @@ double open_share(const DataSet& data, const CorrectedRobot& robot) {
   return 1.0 / std::sqrt(information);
 }
 
+/// Whether any radius is stated, exactly or not.
+bool shows_radii(const Contacts& contacts) {
+  return std::ranges::any_of(contacts.distances,
+                             [](const KnownDistance& one) { return is_radius(one) && !is_wire_zero(one); }) ||
+         std::ranges::any_of(contacts.forms, [](const auto& form) { return form.second.radius_m.value_or(0.0) > 0.0; });
+}
+
 /// By how much all lengths together are longer, and how surely, where each scatters about that by itself too.
 struct CommonFactor {
   double change = 0.0, deviation = 0.0;
@@ -109,14 +117,16 @@ std::optional<Finding> find_common_factor(const DataSet& data, const CorrectedRo
       fisher_quantile(kAsFourDeviations, 1.0, static_cast<double>(lengths.described_m.size() - 1) + kMakersCount));
   const double most = factor.deviation * limit;
   if (!(std::abs(factor.change) > std::max(kLeast, most))) return std::nullopt;
+  std::vector<std::string_view> keys = length_keys(data.contacts);
+  if (shows_radii(data.contacts)) keys.emplace_back("contacts.radii_mm");
   return Finding{
       .kind = FindingKind::disagreeing_length,
       .sentence = fmt::format(
           "All links of the arm are fitted {:.2f} % {} than described, by one factor (± {:.2f} %): known lengths and "
           "stated radii, which the scale is from, are {} by that much, or the description is of another arm. Check "
-          "contacts.distances and contacts.radii_mm, their unit, and the robot's lengths.",
+          "{}, their unit, and the robot's lengths.",
           100.0 * std::abs(factor.change), factor.change > 0.0 ? "longer" : "shorter", 100.0 * factor.deviation,
-          factor.change > 0.0 ? "too long" : "too short")};
+          factor.change > 0.0 ? "too long" : "too short", fmt::join(keys, " and "))};
 }
 
 }  // namespace demecal::inline data_check

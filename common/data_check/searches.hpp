@@ -8,6 +8,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "data/data_set.hpp"
@@ -167,9 +168,8 @@ std::optional<Finding> find_exchanged_contacts(const DataSet& data);
 /// contact `apart_m` from their middle.
 std::vector<Finding> find_wrong_lengths(const DataSet& data, const CorrectedRobot& robot, double apart_m);
 
-/// What touches that scatter by `noise_m` leave open of how far a place is from another, m^2: of a plane its tilt, of a
-/// sphere its radius, too. Infinite where they do not tell where it is.
-double placed_m2(const ContactPlace& own, const std::vector<Touch>& touches, const ContactPlace& other, double noise_m);
+/// Where the data set states the lengths between two contacts that it has.
+std::vector<std::string_view> length_keys(const Contacts& contacts);
 
 /// The three of these lengths that are off most, and how many more there are.
 std::vector<Finding> worst_lengths(std::vector<Finding> found);

@@ -182,7 +182,7 @@ class ContactsReader {
       for (std::size_t first = 0; first < second; ++first) {
         const double length_m = (place_m(places[second]) - place_m(places[first])).norm();
         if (!(length_m > 0.0)) places[second].fail(places[second].name, "is where " + places[first].name + " is");
-        data_.contacts.distances.push_back({places[first].name, places[second].name, length_m, sigma_m});
+        data_.contacts.distances.push_back({places[first].name, places[second].name, length_m, sigma_m, true});
       }
     }
   }

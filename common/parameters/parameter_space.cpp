@@ -41,12 +41,6 @@ RotationVectors rotation_vectors_of(const std::vector<ParameterId>& ids, const E
   return turns;
 }
 
-/// Translations and radius: the rotation waits until its whole vector is known.
-void move_place(ContactPlace& place, int motion, double change) {
-  if (motion == kRadiusMotion) place.radius_m += change;
-  if (motion < 3) place.frame.translation() += change * place.frame.linear().col(motion);
-}
-
 void add_change(CorrectedRobot& robot, const ParameterId& id, double change) {
   switch (id.kind) {
     case Kind::base_translation:
@@ -62,7 +56,10 @@ void add_change(CorrectedRobot& robot, const ParameterId& id, double change) {
       robot.effects[static_cast<std::size_t>(id.index)].values[static_cast<std::size_t>(id.coefficient)] += change;
       return;
     case Kind::contact:
-      move_place(robot.contacts.at({id.target, id.set}), id.index, change);
+      if (id.index < 3 || id.index == kRadiusMotion) {  // rotations wait until their whole vector is known
+        ContactPlace& place = robot.contacts.at({id.target, id.set});
+        place = moved_place(place, id.index, change);
+      }
       return;
     case Kind::station:
       if (id.index < 3) robot.stations.at(id.target).translation()[id.index] += change;

@@ -52,13 +52,14 @@ void say_surroundings(const PlanRequest& request, const FeasibleSpace& space, Pl
   if (!request.cell && !cell.half_spaces.empty())
     say.push_back("The arm is taken to stand on the plane z = 0 of its base frame and to keep above it.");
   if (cell.half_spaces.empty() && !cell.tool_box && cell.obstacles.empty())
-    plan.warnings.push_back(
+    plan.warnings.push_back(fmt::format(
         "Nothing is known of what stands about the arm, not even where the floor is: state it with --cell CELL.yaml "
-        "before you run the programs.");
+        "before you {}.",
+        request.places ? "set up the sockets" : "run the programs"));
   else if (!request.cell)
-    plan.warnings.push_back(
-        "Nothing is known of walls and obstacles about the arm: state them with --cell CELL.yaml, or run the programs "
-        "slowly first.");
+    plan.warnings.push_back(fmt::format(
+        "Nothing is known of walls and obstacles about the arm: state them with --cell CELL.yaml, or {}.",
+        request.places ? "look whether the arm can be led to each posture" : "run the programs slowly first"));
   if (!cell.instrument && !request.places)
     say.push_back(
         "Where the instrument stands is not known: every pose is taken to be visible, positions alone are "

@@ -172,6 +172,18 @@ std::vector<int> motions_of(const ContactPlace& place) {
   return {};
 }
 
+ContactPlace moved_place(ContactPlace place, int motion, double change) {
+  const Eigen::Matrix3d axes = place.frame.linear();
+  if (motion == kRadiusMotion) {
+    place.radius_m += change;
+  } else if (motion < 3) {
+    place.frame.translation() += change * axes.col(motion);
+  } else {
+    place.frame.linear() = Eigen::AngleAxisd(change, axes.col(motion - 3)) * axes;
+  }
+  return place;
+}
+
 int rows_of(ContactKind kind) {
   return kind == ContactKind::point ? 3 : kind == ContactKind::line ? 2 : 1;
 }

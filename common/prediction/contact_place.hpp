@@ -38,6 +38,9 @@ PlaceDistance place_distance(const ContactPlace& first, const ContactPlace& seco
 inline constexpr int kRadiusMotion = 6;
 std::vector<int> motions_of(const ContactPlace& place);
 
+/// The place moved by so much of one of its motions: turns are about the axes of its own frame.
+ContactPlace moved_place(ContactPlace place, int motion, double change);
+
 /// How many numbers a touch of that kind tells.
 int rows_of(ContactKind kind);
 

@@ -139,7 +139,7 @@ DataSet recorded_data_set(const Recordings& recordings, const RecordedContacts& 
   data.frame = Frame::base;
   data.file = recordings.logs.front().file;
   data.contacts.distances = recordings.distances;
-  std::map<std::string, std::vector<std::size_t>> to_divide;
+  std::vector<std::size_t> to_divide;
   for (const JudgedStandstill& one : found.standstills) {
     if (one.standing != Standing::touches) continue;
     const std::optional<PoseSet>& set = recordings.logs[one.at.log].set;
@@ -151,18 +151,14 @@ DataSet recorded_data_set(const Recordings& recordings, const RecordedContacts& 
     pose.pose_id = "P" + std::to_string(data.poses.size() + 1);
     pose.contact = found.contacts[*one.contact].name;
     pose.line = one.at.first_line;
-    if (!set) to_divide[pose.contact].push_back(data.poses.size());
+    if (!set) to_divide.push_back(data.poses.size());
     data.poses.push_back(std::move(pose));
   }
-  constexpr std::size_t kLeastToDivide = 7;  // of fewer, 30 % are no two, and one alone fits any place
   RandomStream random{1};
-  for (const auto& [contact, indices] : to_divide) {
-    if (indices.size() < kLeastToDivide) continue;
-    std::vector<MeasuredPose> poses;
-    for (const std::size_t i : indices) poses.push_back(data.poses[i]);
-    split_by_pose(poses, {}, [&random](std::size_t n) { return random.index(n); });
-    for (std::size_t i = 0; i < indices.size(); ++i) data.poses[indices[i]].set = poses[i].set;
-  }
+  std::vector<MeasuredPose> divided;
+  for (const std::size_t i : to_divide) divided.push_back(data.poses[i]);
+  split_by_pose(divided, {}, [&random](std::size_t n) { return random.index(n); });
+  for (std::size_t i = 0; i < to_divide.size(); ++i) data.poses[to_divide[i]].set = divided[i].set;
   return data;
 }
 

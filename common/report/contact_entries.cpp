@@ -6,8 +6,6 @@
 #include <cstddef>
 #include <map>
 #include <optional>
-#include <ranges>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -16,11 +14,11 @@
 #include "closed_calibration/one_place.hpp"
 #include "data/contacts.hpp"
 #include "data/data_set.hpp"
-#include "data/stated_radius.hpp"
 #include "kinematics/units.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
+#include "report/length_entries.hpp"
 #include "report/pose_places.hpp"
 #include "report/report.hpp"
 
@@ -29,16 +27,6 @@ namespace {
 
 std::optional<double> rms_mm(const DataSet& data, const CorrectedRobot& robot, const std::vector<std::size_t>& poses) {
   return if_finite(error_figures(robot, data, poses).rms_mm);
-}
-
-/// The known lengths between contacts that calibration poses touch at both ends.
-std::size_t fitted_lengths(const DataSet& data) {
-  std::set<std::string> touched;
-  for (const MeasuredPose& pose : data.poses)
-    if (pose.set == PoseSet::calibration) touched.insert(pose.contact);
-  return static_cast<std::size_t>(std::ranges::count_if(data.contacts.distances, [&](const KnownDistance& known) {
-    return !is_radius(known) && touched.contains(known.first) && touched.contains(known.second);
-  }));
 }
 
 /// What calibration at one place cannot see; empty where there are several.
@@ -70,41 +58,6 @@ std::string wire_zeros_sentence(const DataSet& data, const CorrectedRobot& robot
          ". The model allows for it; set their zeros before others use them.";
 }
 
-/// Whether poses hold the tool at a length from something: a wire's, or a sphere's stated radius.
-bool shows_lengths(const DataSet& data) {
-  if (std::ranges::any_of(data.contacts.distances, is_radius)) return true;
-  return std::ranges::any_of(data.poses, [&](const MeasuredPose& pose) {
-    return pose.contact_length_m > 0.0 || data.contacts.form_of(pose.contact).radius_m.value_or(0.0) > 0.0;
-  });
-}
-
-/// The one figure without an instrument that shows accuracy and not agreement. Poses of another set that touch the ends
-/// of a fitted length tell nothing new of whether it is as long as it is stated.
-std::string unfitted_lengths_sentence(const std::vector<LengthErrorEntry>& lengths,
-                                      const std::vector<std::string>& fitted_sets) {
-  const auto is_of_fitted_set = [&](const LengthErrorEntry& one) {
-    return std::ranges::find(fitted_sets, one.set) != fitted_sets.end();
-  };
-  const auto was_fitted = [&](const LengthErrorEntry& one) {
-    return std::ranges::any_of(lengths, [&](const LengthErrorEntry& other) {
-      return is_of_fitted_set(other) && std::ranges::is_permutation(other.between, one.between);
-    });
-  };
-  double squares_mm2 = 0.0, sigma_mm = 0.0;
-  int count = 0;
-  for (const LengthErrorEntry& one : lengths) {
-    if (!one.error_mm || was_fitted(one)) continue;
-    squares_mm2 += *one.error_mm * *one.error_mm;
-    sigma_mm = std::max(sigma_mm, one.sigma_mm.value_or(0.0));
-    ++count;
-  }
-  if (count == 0) return {};
-  return fmt::format(
-      "Accuracy against lengths that nothing was fitted to: off by {:.3f} mm (rms of {}, each known to "
-      "{:.2g} mm).",
-      std::sqrt(squares_mm2 / count), count, sigma_mm);
-}
-
 }  // namespace
 
 bool touches_one_contact_alone(const DataSet& data) {
@@ -125,25 +78,6 @@ std::optional<WorkspaceEntry> without_figures_of_one_contact(std::optional<Works
     error->p95_mm.reset();
   }
   return error;
-}
-
-std::vector<LengthErrorEntry> length_error_entries(const DataSet& data, const CorrectedRobot& robot,
-                                                   const CorrectedRobot* before) {
-  const std::vector<LengthError> after = length_errors(robot, data);
-  const std::vector<LengthError> first = before == nullptr ? std::vector<LengthError>{} : length_errors(*before, data);
-  std::vector<LengthErrorEntry> entries;
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    const LengthError& one = after[i];
-    LengthErrorEntry entry{{one.known->first, one.known->second},
-                           std::string(to_string(one.set)),
-                           millimetres(one.known->length_m),
-                           millimetres(one.known->sigma_m),
-                           {},
-                           if_finite(millimetres(one.error_m))};
-    if (before != nullptr) entry.before_mm = if_finite(millimetres(first[i].error_m));
-    entries.push_back(std::move(entry));
-  }
-  return entries;
 }
 
 std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRobot& registered,
@@ -181,18 +115,15 @@ std::vector<std::string> contact_notes(const DataSet& data, const CorrectedRobot
                                        const std::vector<std::string>& fitted_sets, const std::string& second_place) {
   if (!has_contacts(data)) return {};
   std::vector<std::string> notes;
-  if (std::string sentence = unfitted_lengths_sentence(lengths, fitted_sets); !sentence.empty())
-    notes.push_back(std::move(sentence));
+  for (std::string sentence : {unfitted_lengths_sentence(data, lengths, fitted_sets), untold_lengths_sentence(data)})
+    if (!sentence.empty()) notes.push_back(std::move(sentence));
   if (!has_instrument(data)) {
     if (std::string sentence = one_place_sentence(data, robot); !sentence.empty()) {
       notes.push_back(sentence + second_place);
     }
     if (std::string sentence = wire_zeros_sentence(data, robot); !sentence.empty())
       notes.push_back(std::move(sentence));
-    if (fitted_lengths(data) == 0 && !shows_lengths(data))
-      notes.emplace_back(
-          "No length between contacts is known: the scale of the arm is not measured and stays the description's. Two "
-          "contacts at a known distance (contacts.distances) would give it.");
+    if (std::string sentence = unknown_scale_sentence(data); !sentence.empty()) notes.push_back(std::move(sentence));
     notes.emplace_back(
         "Contacts do not tell where the arm stands: its base is neither needed nor fitted, and the first joint's zero, "
         "height and what lies before its axis stay as described.");

@@ -64,7 +64,7 @@ void fields(auto& visit, Like<UncertaintyEntry> auto& entry) {
 
 void fields(auto& visit, Like<LengthErrorEntry> auto& length) {
   visit("between", length.between, "set", length.set, "known_mm", length.known_mm, "sigma_mm", length.sigma_mm,
-        "before_mm", length.before_mm, "error_mm", length.error_mm);
+        "before_mm", length.before_mm, "error_mm", length.error_mm, "uncertainty_mm", length.uncertainty_mm);
 }
 
 }  // namespace demecal::inline report

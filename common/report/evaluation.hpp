@@ -57,10 +57,6 @@ std::vector<std::string> widened_sentences(const CalibratedModel& model, const D
 std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedModel& model, const CorrectedRobot& robot,
                                         const CorrectedRobot* before);
 
-/// Of every known length between contacts, in every set that touches both its ends. `before`: none where not known.
-std::vector<LengthErrorEntry> length_error_entries(const DataSet& data, const CorrectedRobot& robot,
-                                                   const CorrectedRobot* before);
-
 /// Of every contact and set; empty where nothing is touched.
 std::vector<ContactEntry> contact_entries(const DataSet& data, const CorrectedRobot& registered,
                                           const CorrectedRobot& before, const CorrectedRobot& after);

@@ -21,6 +21,7 @@
 #include "parameters/declared_model.hpp"
 #include "prediction/measurement.hpp"
 #include "report/evaluation.hpp"
+#include "report/length_entries.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal::inline report {

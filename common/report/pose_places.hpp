@@ -66,6 +66,8 @@ struct LengthErrorEntry {
   std::optional<double> known_mm, sigma_mm;
   std::optional<double> before_mm;  ///< of what the closed loop started from
   std::optional<double> error_mm;   ///< of the model
+  /// Standard uncertainty of these, of the length and by the scatter of the touches at both ends.
+  std::optional<double> uncertainty_mm{};
 };
 
 }  // namespace demecal::inline report

@@ -20,7 +20,6 @@
 #include "next_measurement/next_measurement.hpp"
 #include "report/history.hpp"
 #include "studies/change_advice.hpp"
-#include "updating/gross_poses.hpp"
 #include "updating/implausible_change.hpp"
 
 namespace demecal::inline studies {

@@ -1,6 +1,5 @@
 #include "updating/gross_poses.hpp"
 
-#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -80,16 +79,6 @@ LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double 
     result.standard.push_back(std::sqrt(std::max(0.0, square)));
   }
   return result;
-}
-
-std::string names_with_lines(const DataSet& data, const std::vector<std::size_t>& poses) {
-  std::vector<std::string> names;
-  for (const std::size_t i : poses) {
-    const MeasuredPose& pose = data.poses[i];
-    names.push_back(names_itself(pose) ? fmt::format("{} (line {})", pose.pose_id, pose.line)
-                                       : fmt::format("line {}", pose.line));
-  }
-  return fmt::format("{}", fmt::join(names, ", "));
 }
 
 std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& rows, const BeliefSizes& sizes,

@@ -3,10 +3,8 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <string>
 #include <vector>
 
-#include "data/data_set.hpp"
 #include "updating/belief_sizes.hpp"
 
 namespace demecal::inline updating {
@@ -23,8 +21,5 @@ LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double 
 /// that are likeliest without them, of six poses and more.
 std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& rows, const BeliefSizes& sizes,
                                      JointSizes joints);
-
-/// "P7 (line 12), P9 (line 14)": names may repeat.
-std::string names_with_lines(const DataSet& data, const std::vector<std::size_t>& poses);
 
 }  // namespace demecal::inline updating

@@ -21,6 +21,7 @@
 #include "preparation/recorded_contacts.hpp"
 #include "preparation/results.hpp"
 #include "report/evaluation.hpp"
+#include "report/length_entries.hpp"
 #include "simulation/scenario.hpp"
 #include "simulation/simulated_robot.hpp"
 #include "terminal/report_text.hpp"
@@ -103,6 +104,8 @@ ExitCode prepare_recordings(const Recordings& recordings, const PrepareRequest& 
   const CheckedData checked{data, check_data(data)};
   if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
   fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
+  for (const std::string& sentence : {untold_lengths_sentence(data), unknown_scale_sentence(data)})
+    if (!sentence.empty()) fmt::print(stderr, "  - {}\n", sentence);
 
   const WrittenFile standstills = standstills_file(recordings, found);
   const std::vector<std::string> names{"dataset.yaml", "poses.csv", "robot.yaml", standstills.name};

@@ -34,6 +34,7 @@
 #include "prediction/corrected_robot.hpp"
 #include "programs/command_model.hpp"
 #include "report/evaluation.hpp"
+#include "report/length_entries.hpp"
 #include "report/pose_places.hpp"
 #include "report/report.hpp"
 #include "symbolic/algebra.hpp"
@@ -247,6 +248,8 @@ ExitCode run_evaluate(const EvaluateRequest& request) {
   }
   for (const UnappliedEffect& one : evaluation.effects_not_applied)
     fmt::print(stderr, "{}: {}\n", data.file, one.sentence);
+  if (const std::string untold = untold_lengths_sentence(data); !untold.empty())
+    fmt::print(stderr, "{}: {}\n", data.file, untold);
   fmt::print("{}", request.json ? to_json(evaluation) : to_terminal(evaluation));
   return ExitCode::done;
 }

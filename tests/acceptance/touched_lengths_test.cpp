@@ -98,6 +98,23 @@ TEST(TouchedLengths, ThatTheModelWasFittedToAreNotJudged) {
   EXPECT_THROW(judged(), InputError);
 }
 
+TEST(TouchedLengths, ThatNoSetTouchesAtBothEndsAreNamedWhereNoneIsJudged) {
+  DataSet data = touching(75, {2, 2, 0}, 0.0);
+  for (const std::size_t pose : {2U, 3U}) data.poses[pose].set = PoseSet::calibration;
+  CalibratedModel model;
+  model.nominal = data.robot;
+  model.robot = nominal_robot(data);
+  const std::vector<std::size_t> accept{0, 1};
+  Certificate certificate;
+  try {
+    judge_lengths(model, data, accept, {}, certificate);
+    FAIL() << "no length is touched at both ends";
+  } catch (const InputError& error) {
+    const std::string says = error.what();
+    EXPECT_NE(says.find("'A' to 'B' (accept poses touch 'A', calibration poses touch 'B')"), std::string::npos) << says;
+  }
+}
+
 TEST(TouchedLengths, AreJudgedWhereNothingWasMeasuredAtAnyPose) {
   DataSet data = touching(73, {2, 2, 2}, 0.0);
   std::vector<std::size_t> rows{0, 1, 2};

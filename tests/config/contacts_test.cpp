@@ -115,6 +115,7 @@ TEST_F(ContactFiles, OfAGridAreAsFarApartAsItsPlacesAre) {
   DataSet data = load("contacts: {grids: [{places_mm: {a: [0, 0], b: [30, 40], ball: [0, 0, 10]}, sigma_mm: 0.02}]}\n");
   for (int times = 0; times < 2; ++times) {
     ASSERT_EQ(data.contacts.distances.size(), 3u);
+    EXPECT_EQ(data.contacts.distances[0].key(), times == 0 ? "contacts.grids" : "contacts.distances");
     EXPECT_EQ(data.contacts.distances[0].first + data.contacts.distances[0].second, "ab");
     EXPECT_NEAR(data.contacts.distances[0].length_m, 0.05, 1e-15);
     EXPECT_NEAR(data.contacts.distances[1].length_m, 0.01, 1e-15);

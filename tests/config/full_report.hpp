@@ -39,7 +39,7 @@ inline Report full_report() {
                         {{3, 2, 1.0}}};
   report.stations = {{"north", 30, report.registered, report.before, report.after, {}, {}}};
   report.unexplained = UnexplainedEntry{.error_mm = 0.26, .left_mm = 0.3, .noise_mm = 0.15, .advice = "Measure more."};
-  report.length_errors = {{{"left", "right"}, "accept", 50.0, 0.05, 0.4, 0.06}};
+  report.length_errors = {{{"left", "right"}, "accept", 50.0, 0.05, 0.4, 0.06, 0.07}};
   report.contacts = {{"left", "accept", "point", 30, 8.1, 0.7, 0.5}};
   report.contact_notes = {"No length is known."};
   report.prediction_interval = {2.1, 0.05, 0.0, 0.02, "accept", 30, 1, "a remark"};

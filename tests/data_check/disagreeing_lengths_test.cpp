@@ -60,6 +60,17 @@ TEST(DisagreeingLengths, AreNamedWhereOneFittedIsWrong) {
   EXPECT_THAT(found.front().sentence, HasSubstr("contradict each other"));
 }
 
+TEST(DisagreeingLengths, AreSaidToBeOfWhereTheyAreStated) {
+  DataSet data = arm_at_blocks(9605).data;
+  data.contacts.distances[0].length_m *= 1.04;
+  EXPECT_THAT(disagreeing(data).front().sentence, HasSubstr("check all of contacts.distances, and the names"));
+  data.contacts.distances[1].of_grid = true;
+  EXPECT_THAT(disagreeing(data).front().sentence,
+              HasSubstr("check all of contacts.distances, contacts.grids, and the names"));
+  for (KnownDistance& known : data.contacts.distances) known.of_grid = true;
+  EXPECT_THAT(disagreeing(data).front().sentence, HasSubstr("check all of contacts.grids, and the names"));
+}
+
 TEST(DisagreeingLengths, AreNamedWhereOneUnseenIsWrong) {
   DataSet data = arm_at_blocks(9606).data;
   data.contacts.distances[2].length_m *= 0.97;
@@ -86,7 +97,9 @@ TEST(DisagreeingLengths, AreNamedByTheLinksWhereAllAreWrongByOneFactor) {
     ASSERT_EQ(found.size(), 1u) << factor;
     EXPECT_THAT(found.front().sentence,
                 HasSubstr(factor > 1.0 ? "% longer than described" : "% shorter than described"));
-    EXPECT_THAT(found.front().sentence, HasSubstr("contacts.distances"));
+    EXPECT_THAT(found.front().sentence, HasSubstr("Check contacts.distances, their unit"));
+    for (KnownDistance& known : data.contacts.distances) known.of_grid = true;
+    EXPECT_THAT(disagreeing(data).front().sentence, HasSubstr("Check contacts.grids, their unit"));
   }
 }
 

@@ -54,6 +54,15 @@ TEST(PlannedSockets, AreTouchedByEveryPoseOfTheirName) {
   EXPECT_TRUE(plan.way.stops.empty());
 }
 
+TEST(PlannedSockets, WarnOfNoProgramsWhichNobodyWrites) {
+  PlanRequest request = touching_request({});
+  request.poses = 20;
+  request.cell.reset();
+  const auto warnings = make_plan(request).warnings;
+  EXPECT_THAT(warnings, testing::Contains(testing::HasSubstr("Nothing is known of")));
+  EXPECT_THAT(warnings, testing::Not(testing::Contains(testing::HasSubstr("programs"))));
+}
+
 TEST(PlannedSockets, StandInTheirBoxAsFarApartAsTheBlockHasThem) {
   PlanRequest request = touching_request(0.08);
   request.cell->sockets.box = Eigen::AlignedBox3d(Eigen::Vector3d(-0.9, -0.9, 0.15), Eigen::Vector3d(0.9, 0.9, 0.4));

@@ -11,6 +11,7 @@
 #include "kinematics/angles.hpp"
 #include "prediction/measurement.hpp"
 #include "prediction/only_places.hpp"
+#include "prediction/place_uncertainty.hpp"
 #include "prediction/random_robot.hpp"
 
 namespace demecal {
@@ -88,6 +89,29 @@ TEST(ContactPlace, ChangesWithTheToolAndItselfAsItsDerivativesSay) {
           << to_string(kind) << motion;
     }
   }
+}
+
+TEST(ContactPlace, IsMovedAlongAndAboutItsOwnAxes) {
+  constexpr double kBy = 1e-6;
+  RandomStream stream{9109};
+  for (const ContactKind kind : kKinds) {
+    const ContactPlace place = random_place(stream, kind);
+    for (const int motion : motions_of(place)) {
+      const ContactPlace moved = moved_place(place, motion, kBy);
+      const ContactPlace expected = stepped(place, Eigen::Vector3d::Zero(), motion, kBy);
+      EXPECT_LT((moved.frame.matrix() - expected.frame.matrix()).norm(), 1e-14) << to_string(kind) << motion;
+      EXPECT_DOUBLE_EQ(moved.radius_m, expected.radius_m);
+    }
+  }
+}
+
+TEST(PlacedM2, IsTheVarianceOfAMeanAndInfiniteWhereNothingTells) {
+  const std::vector<Touch> touches(8, Touch{Eigen::Vector3d::Zero()});
+  const ContactPlace point{}, other{.frame = Eigen::Isometry3d(Eigen::Translation3d(0.3, 0.4, 0.0))};
+  EXPECT_NEAR(placed_m2(point, touches, other, 1e-4), 1e-8 / 8.0, 1e-12);
+  const ContactPlace plane{.kind = ContactKind::plane};
+  const ContactPlace aside{.frame = Eigen::Isometry3d(Eigen::Translation3d(0.3, 0.0, 0.1))};
+  EXPECT_TRUE(std::isinf(placed_m2(plane, touches, aside, 1e-4))) << "one point of a plane leaves its tilt open";
 }
 
 TEST(ContactPlace, IsFoundFromPointsThatTouchIt) {
