@@ -257,9 +257,9 @@ void check_unmeasured(const Program& program, const CommandModel& model, const C
 void check_redundancy(const Program& program, const Chain& arm, std::vector<std::string>& sentences) {
   const auto leaves = [&](const Target& one) { return one.is_pose() && arm.size() - std::ssize(one.carried) > 6; };
   if (std::ranges::none_of(program.targets, leaves)) return;
-  sentences.push_back("poses do not say with which of the arm's " + std::to_string(arm.size()) +
-                      " joints they are reached: those corrected are for joints near the ones before (or --near); "
-                      "where the controller takes another elbow the arm errs otherwise. Targets by joints tell");
+  sentences.push_back("poses do not say at which angles of its " + std::to_string(arm.size()) +
+                      " joints the arm reaches them: they are corrected for angles near those before (or --near), and "
+                      "where the controller takes another elbow another correction is due; targets by joints tell");
 }
 
 }  // namespace

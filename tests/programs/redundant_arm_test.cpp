@@ -30,7 +30,7 @@ std::vector<std::string> said_of_table(const CommandModel& model, const std::str
 
 TEST(RedundantArm, HasAnElbowThatPosesDoNotTell) {
   RandomStream stream{7651};
-  const auto is_said = Contains(HasSubstr("poses do not say with which of the arm's 7 joints they are reached"));
+  const auto is_said = Contains(HasSubstr("poses do not say at which angles of its 7 joints the arm reaches them"));
   for (const int joints : {6, 7}) {
     Robot nominal;
     nominal.name = "arm";
