@@ -162,6 +162,9 @@ ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& fil
     }
     exported = {plain_urdf(model.nominal, robot.chain),
                 {"the robot was not imported from a URDF; a new one of links without bodies is written"}};
+    if (model.nominal.chain.positioner > 0)
+      exported.notes.emplace_back(
+          "its link base is the workpiece on the positioner, whose joints stand before the arm's");
   }
   if (!robot.chain.couplings.empty())
     exported.notes.emplace_back("couplings between joints are left out: joint values are those of the drives");

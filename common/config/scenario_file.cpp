@@ -176,6 +176,19 @@ void read_touched(const YamlNode& node, Scenario& scenario) {
   }
 }
 
+/// A simulated robot's weight does no more than that of a robot file with a positioner: nothing.
+void refuse_weight(const YamlNode& root, const Scenario& scenario) {
+  constexpr const char* kTurns =
+      "carries weight, which turns with the workpiece that a positioner carries: leave it out";
+  if (scenario.robot.chain.positioner == 0) return;
+  if (scenario.torque_log) root.at("measurement").at("torque_log").fail("", kTurns);
+  visit_joint_errors(scenario, [&](const char* key, const auto& errors) {
+    for (const auto& error : errors)
+      if constexpr (requires { error.takes_weight(); })
+        if (error.takes_weight()) root.at("errors").at(key).fail("", kTurns);
+  });
+}
+
 /// The simulation's own rules know no file.
 void check_scenario(const Scenario& scenario, const YamlNode& root) {
   try {
@@ -202,6 +215,7 @@ Scenario load_scenario(const std::filesystem::path& path) {
   if (const YamlNode* measurement = root.find("measurement")) read_measurement(*measurement, scenario);
   if (const YamlNode* contacts = root.find("contacts")) read_touched(*contacts, scenario);
   if (const YamlNode* errors = root.find("errors")) read_true_errors(*errors, scenario);
+  refuse_weight(root, scenario);
   check_scenario(scenario, root);
   return scenario;
 }

@@ -70,6 +70,10 @@ void check_column_map(const ColumnMap& columns, const Chain& chain) {
   if (!columns.orientation.empty()) check_count(columns, columns.orientation, 4, "columns.orientation (w, x, y, z)");
   if (!columns.approach.empty()) check_count(columns, columns.approach, chain.joints.size(), "columns.approach");
   if (!columns.torque.empty()) check_count(columns, columns.torque, chain.joints.size(), "columns.torque");
+  if (!columns.torque.empty() && chain.positioner > 0)
+    throw InputError(columns.torque.front().where, columns.torque.front().name,
+                     "is the torque that holds a weight, which turns with the workpiece that a positioner carries: "
+                     "leave columns.torque out");
   check_distinct(columns);
   if (columns.position.empty() && columns.orientation.empty() && columns.distances.empty() && !columns.contact) {
     throw InputError(columns.where, "",

@@ -44,7 +44,8 @@ bool says_nothing(std::string_view lower) {
 
 std::string why_no_number(const std::string& text, char decimal) {
   if (text.empty()) return "is empty where a number is expected";
-  if (decimal == ',' && text.find('.') != std::string::npos)
+  if (decimal == ',' && text.find('.') != std::string::npos &&
+      text.find_first_not_of("+-.,' 0123456789eE") == std::string::npos)
     return "has a point where the file writes decimal commas: is it a separator of thousands?";
   if (has_thousands_apart(text, decimal))
     return "looks like a number with separators of thousands: export the table without them";

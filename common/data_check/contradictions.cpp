@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <ranges>
@@ -46,6 +47,8 @@ class Contradictions {
   /// What the notable error of the trial comes from, if that can be told.
   void explain(double reach_m) {
     const double as_given_m = fit_.median_m, plausible_m = kImplausibleShare * reach_m;
+    if (const auto beside = median_without_positioner_m(); beside < std::min(kHalf * as_given_m, plausible_m))
+      return add_frame_beside_positioner(as_given_m, beside);
     const auto explained = best_explanation(trial_, placed_, std::min(kHalf * as_given_m, plausible_m));
     const auto shift = best_shift(whole_);
     Trial moved = trial_;
@@ -155,6 +158,28 @@ class Contradictions {
                                order.clause, distance_text(as_given_m))
                  : "The data fit if " + order.clause + which + " " + before_and_after(as_given_m, order.median_m) +
                        ". Correct the file."});
+  }
+
+  /// The median error of points that do not move with the positioner; infinite where there is none.
+  double median_without_positioner_m() const {
+    if (trial_.chain.positioner == 0) return std::numeric_limits<double>::infinity();
+    Trial beside = trial_;
+    for (TrialRow& row : beside.rows) row.joints.head(beside.chain.positioner).setZero();
+    return fit_arm(beside, fit_base_and_tools(beside)).median_m;
+  }
+
+  void add_frame_beside_positioner(double as_given_m, double beside_m) {
+    const int last = trial_.chain.positioner;
+    add({.kind = FindingKind::other_robot,
+         .as_given_mm = millimetres(as_given_m),
+         .if_changed_mm = millimetres(beside_m),
+         .sentence = fmt::format(
+             "The positions fit if they do not move with the positioner ({} left out) {}: they are measured from "
+             "where the arm stands, but with `positioner:` in the robot file they count from the workpiece that it "
+             "carries. Give positions in the workpiece's frame, or calibrate a robot file without `positioner:` and "
+             "`workpiece:` by the joints of the arm alone.",
+             last == 1 ? std::string("joint 1") : fmt::format("joints 1 to {}", last),
+             before_and_after(as_given_m, beside_m))});
   }
 
   void add_other_robot(double as_given_m, double reach_m) {

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "data_check/nearest_reading.hpp"
 #include "data_check/other_number.hpp"
 #include "data_check/pendant_rounding.hpp"
 #include "effects/arm_state.hpp"
@@ -99,20 +100,19 @@ class PendantSearch {
     const TrialFit placed = fit_base_and_tools(trial_);
     if (settles(placed, {})) return true;
     constexpr double kSingleOnly_m = std::numeric_limits<double>::infinity();
-    const auto single = best_explanation(trial_, placed, kSingleOnly_m, true);
+    const std::vector<AlikeReading> singles = single_readings(best_explanation(trial_, placed, kSingleOnly_m, true));
     const auto signs = best_sign_set(trial_, {.zeros = false, .in_base = true});
-    if (signs && (!single || nearer(signs->best, *single)) && settles(reading_of(*signs))) return true;
-    if (single && settles(reading_of(*single))) return true;
+    if (signs && nearer(signs->best, singles) && settles(reading_of_signs(*signs))) return true;
+    if (settles(singles)) return true;
     if (settles_without_one() || settles_with_one_number()) return true;
     if (simple) return false;
-    if (const auto set = best_sign_set(trial_, {.zeros = true, .in_base = true}); set && settles(reading_of(*set)))
+    if (const auto set = best_sign_set(trial_, {.zeros = true, .in_base = true});
+        set && settles(reading_of_signs(*set)))
       return true;
     if (const auto several = best_explanation(trial_, placed, rounding_.typical_m(), true);
-        several && settles(reading_of(*several)))
+        several && settles(reading_of(several->explanations)))
       return true;
-    if (const auto mirrored = best_explanation(trial_, placed, kSingleOnly_m);
-        mirrored && settles(reading_of(*mirrored)))
-      return true;
+    if (settles(single_readings(best_explanation(trial_, placed, kSingleOnly_m)))) return true;
     return try_numbers({.registration = true, .tool = true, .joint_offset = true}, false) ||
            try_numbers({.registration = true, .tool = true, .joint_offset = true, .geometry = true}, true);
   }
@@ -123,34 +123,53 @@ class PendantSearch {
     std::vector<std::string> sentences;
   };
 
-  Reading reading_of(const BestExplanation& best) const {
+  Reading reading_of(const std::vector<Explanation>& together) const {
     Reading reading{trial_, {}};
-    for (const Explanation& one : best.explanations) {
+    for (const Explanation& one : together) {
       one.apply(reading.trial);
       reading.sentences.push_back("It fits if " + one.clause + ".");
     }
-    for (const Explanation& one : best.equals)
-      reading.sentences.push_back("As well, and these poses cannot tell which, it fits if " + one.clause + ".");
     return reading;
   }
 
-  Reading reading_of(const Explanation& one) const { return reading_of(BestExplanation{{one}, {}}); }
-
-  Reading reading_of(const SignSetChoice& choice) const {
-    Reading reading = reading_of(choice.best);
+  Reading reading_of_signs(SignSetChoice choice) const {
+    if (choice.distance_m <= same_m())
+      std::erase_if(choice.alike, [&](const auto& other) { return other.distance_m > choice.distance_m + same_m(); });
+    Reading reading = reading_of({choice.best});
     std::ranges::move(alike_sentences(choice), std::back_inserter(reading.sentences));
     return reading;
   }
 
-  /// Whether a set of signs leaves tool and base nearer to their description than a single reading that agrees.
-  bool nearer(const Explanation& signs, const BestExplanation& single) const {
-    constexpr double kNearer_m = 5e-3;
-    const auto distance_m = [&](const Trial& read) {
-      const TrialFit fit = fit_base_and_tools(read);
-      return rounding_.accepts(fit.error_m, read.rows) ? distance_from_description_m(read, fit, true)
-                                                       : std::numeric_limits<double>::infinity();
-    };
-    return distance_m(reading_of(signs).trial) + kNearer_m < distance_m(reading_of(single).trial);
+  /// Up to which differences in how far tool and base stand from their description decide nothing.
+  double same_m() const { return std::max(5e-3, 4.0 * rounding_.typical_m()); }
+
+  /// How far tool and base stand from their description by a change; infinity where it does not agree.
+  double distance_m(const Explanation& change) const {
+    const Trial read = reading_of({change}).trial;
+    const TrialFit fit = fit_base_and_tools(read);
+    return rounding_.accepts(fit.error_m, read.rows) ? distance_from_description_m(read, fit, true)
+                                                     : std::numeric_limits<double>::infinity();
+  }
+
+  /// Whether a set of signs leaves tool and base nearer to their description than any single change that agrees.
+  bool nearer(const Explanation& signs, const std::vector<AlikeReading>& singles) const {
+    return singles.empty() || distance_m(signs) + same_m() < singles.front().distance_m;
+  }
+
+  /// The single changes that agree, those which tool and base speak for first.
+  std::vector<AlikeReading> single_readings(const std::optional<BestExplanation>& best) const {
+    if (!best || best->explanations.size() != 1) return {};
+    std::vector<Explanation> alike = best->equals;
+    alike.insert(alike.begin(), best->explanations.front());
+    return nearest_to_description(
+        alike, [this](const Explanation& one) { return distance_m(one); }, same_m());
+  }
+
+  bool settles(const std::vector<AlikeReading>& singles) {
+    if (singles.empty()) return false;
+    Reading reading = reading_of({singles.front().change});
+    std::ranges::move(as_well_sentences(singles, same_m()), std::back_inserter(reading.sentences));
+    return settles(reading);
   }
 
   bool settles(const Reading& reading) {

@@ -1,6 +1,7 @@
 #include "data/columns.hpp"
 #include "data/csv.hpp"
 #include "data/read_poses.hpp"
+#include "data_files/join_clocks.hpp"
 #include "data_files/pose_files.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
@@ -64,14 +65,6 @@ std::size_t leading_file(const ColumnMap& columns) {
   return 0;
 }
 
-const ColumnName& key_column(const PoseFile& file, const std::optional<ColumnName>& column, const char* key,
-                             const YamlNode& by) {
-  if (column) return *column;
-  throw InputError({by.file, by.line}, by.scalar,
-                   std::string("joins rows by a column that ") + file.table.file + " lacks: name it under `columns." +
-                       key + "`, of this file where names differ");
-}
-
 std::vector<JoinKeys> pose_names(const std::vector<PoseFile>& files, const YamlNode& by) {
   std::vector<JoinKeys> keys;
   for (const PoseFile& file : files) {
@@ -82,54 +75,6 @@ std::vector<JoinKeys> pose_names(const std::vector<PoseFile>& files, const YamlN
       names.names.push_back(column.text(row));
     }
   }
-  return keys;
-}
-
-/// A column of times in seconds; what is to be said of it is appended.
-TimeColumn times_as_seconds(CsvTable& table, const ColumnName& name, std::optional<double>& origin_s,
-                            std::vector<std::string>& sentences) {
-  TimeColumn kind = write_times_as_seconds(table, TableColumn(table, name).index(), origin_s);
-  if (!kind.remark.empty()) sentences.push_back(table.file + ": " + kind.remark);
-  return kind;
-}
-
-/// Times of all files in seconds of one kind.
-class Clocks {
- public:
-  Clocks(bool offset_known, std::vector<std::string>& sentences) : offset_known_(offset_known), sentences_(sentences) {}
-
-  JoinKeys read(PoseFile& file, const ColumnName& name, const AssumedUnits& units) {
-    const TimeColumn kind = times_as_seconds(file.table, name, origin_s_, sentences_);
-    if (first_ && offset_known_ &&
-        (kind.stamps != first_->stamps || kind.dated != first_->dated || kind.zoned != first_->zoned)) {
-      throw InputError(
-          name.where, name.name,
-          "holds times of another kind than " + first_file_ +
-              ": some have a date or zone, or are numbers. Give `offset_s: auto` under `join`, or export them alike");
-    }
-    if (!first_) {
-      first_ = kind;
-      first_file_ = file.table.file;
-    }
-    const TableColumn column(file.table, name, Quantity::time, units);
-    JoinKeys keys;
-    for (const CsvRow& row : file.table.rows) keys.times_s.push_back(column.number(row));
-    return keys;
-  }
-
- private:
-  bool offset_known_;
-  std::vector<std::string>& sentences_;
-  std::optional<double> origin_s_;
-  std::optional<TimeColumn> first_;
-  std::string first_file_;
-};
-
-std::vector<JoinKeys> times_of(std::vector<PoseFile>& files, const YamlNode& by, const AssumedUnits& units,
-                               bool offset_known, std::vector<std::string>& sentences) {
-  Clocks clocks(offset_known, sentences);
-  std::vector<JoinKeys> keys;
-  for (PoseFile& file : files) keys.push_back(clocks.read(file, key_column(file, file.time, "time", by), units));
   return keys;
 }
 
@@ -165,8 +110,8 @@ class TimeJoin {
       : node_(node), files_(files), columns_(columns), units_(units), chain_(chain) {}
 
   JoinedRows run(const JoinRule& rule, std::vector<std::string>& sentences) {
-    const std::vector<JoinKeys> keys = times_of(files_, node_.at("by"), units_, rule.offset_s.has_value(), sentences);
     const std::size_t lead = leading_file(columns_), arm = columns_.joints.front().table;
+    const std::vector<JoinKeys> keys = times_of(files_, lead, node_.at("by"), units_, rule, sentences);
     const ClockOffset offset =
         rule.offset_s ? ClockOffset{.offset_s = *rule.offset_s} : found_offset(keys, lead, arm, rule.within_s);
     JoinedRows joined = join_by_time(tables_of(files_), keys, lead, rule, offset.offset_s);

@@ -91,7 +91,7 @@ std::string fanuc_joint_counting(const std::vector<Target>& targets, const Chain
   const auto is_it = [](const CommandCoupling& coupling) { return coupling.joint == 2 && coupling.from == 1; };
   if (!has_joints || std::ranges::any_of(arm.couplings, is_it)) return {};
   return "Joint 3 is taken to count against link 2, as in the robot's description; FANUC's programs count it against "
-         "the ground: state `couplings: [{joint: 3, from: 2, factor: 1}]` there if these do.\n";
+         "the ground: state `couplings: [{joint: 3, from: 2, factor: 1}]` there if these do.";
 }
 
 }  // namespace demecal::inline languages

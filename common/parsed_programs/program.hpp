@@ -144,7 +144,7 @@ struct Program {
   std::vector<Remark> uncorrected;     ///< what looks like a target but cannot be corrected, and why
   std::vector<Remark> remarks{};       ///< what else should be known before it runs
   /// How its joints are taken to count where controllers of this language usually count otherwise than the robot's
-  /// description: a sentence and a line break, else empty.
+  /// description: a sentence, else empty.
   std::string joint_counting{};
   /// Bytes where the joints before say nothing of those after: of motions to a place that is none of the targets, of
   /// what may stop a motion on its way, and of calls of routines that move.

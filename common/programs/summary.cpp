@@ -95,7 +95,7 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
 
 constexpr std::string_view kOfWorkpiece =
     "The tool is brought to where the workpiece is drawn on its positioner; where it stands otherwise, by what the "
-    "calibration found of its base, is not corrected.\n";
+    "calibration found of its base, is not corrected.";
 
 /// Where the base is that poses are counted from, for people to compare with the controller's: the height of the place
 /// on axis 2 that is nearest to axis 1. Empty where no two joints turn about axes that differ in direction.
@@ -112,8 +112,20 @@ std::string base_text(const Chain& arm) {
   const double height_m = places[1].translation().z() + along * second.z();
   return fmt::format(
       "Poses are counted from the base of the robot's description, in which axis 2 is at z = {:.1f} mm; the "
-      "controller must count from there, too.\n",
+      "controller must count from there, too.",
       millimetres(height_m));
+}
+
+/// From where joints and poses are taken to count, a sentence each.
+std::vector<std::string> notes_of(const CorrectedProgram& corrected, const Chain& arm) {
+  std::vector<std::string> notes{corrected.program.joint_counting};
+  if (arm.positioner > 0) notes.emplace_back(kOfWorkpiece);
+  bool poses = false;
+  for (std::size_t i = 0; i < corrected.targets.size(); ++i)
+    poses = poses || (corrected.program.targets[i].is_pose() && !corrected.targets[i].is_uncorrected());
+  if (poses) notes.push_back(base_text(arm));
+  std::erase(notes, "");
+  return notes;
 }
 
 }  // namespace
@@ -172,11 +184,8 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
                       figures.targets, figures.mean_mm, figures.max_mm);
   const std::size_t left = static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size();
   if (left > 0) text += fmt::format("; {} left as they are", left);
-  text += '\n' + corrected.program.joint_counting;
-  if (arm.positioner > 0) text += kOfWorkpiece;
-  for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
-    if (corrected.program.targets[i].is_pose() && !corrected.targets[i].is_uncorrected()) return text + base_text(arm);
-  }
+  text += '\n';
+  for (const std::string& note : notes_of(corrected, arm)) text += note + '\n';
   return text;
 }
 
@@ -187,6 +196,7 @@ std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
             {"targets", Json::array()},
             {"moved_mm", {{"mean", figures.mean_mm}, {"max", figures.max_mm}}},
             {"left", static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size()},
+            {"notes", notes_of(corrected, arm)},
             {"warnings", Json::array()}};
   for (std::size_t i = 0; i < corrected.targets.size(); ++i) {
     json["targets"].push_back(entry(corrected.program, corrected.program.targets[i], corrected.targets[i], arm));

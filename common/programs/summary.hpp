@@ -36,7 +36,8 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm);
 /// predicted_error95_mm (radius that holds the real tool point 95 % of the time, without measurement noise; of models
 /// that state it; it is twice standard_uncertainty_mm, and coverage_factor says so), widened_by (why
 /// that radius is larger than where the arm was measured), left_as_programmed (sentences),
-/// and of poses turned_deg; `moved_mm` mean and max; `left`, how many are as they were; `warnings` (line 0: of the
+/// and of poses turned_deg; `moved_mm` mean and max; `left`, how many are as they were; `notes` (from where joints
+/// and poses are taken to count); `warnings` (line 0: of the
 /// whole program).
 std::string summary_json(const CorrectedProgram& corrected, const Chain& arm);
 

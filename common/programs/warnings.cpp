@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <span>
@@ -252,6 +253,15 @@ void check_unmeasured(const Program& program, const CommandModel& model, const C
   temperature.say(sentences);
 }
 
+/// Poses that leave the arm's joints to its controller.
+void check_redundancy(const Program& program, const Chain& arm, std::vector<std::string>& sentences) {
+  const auto leaves = [&](const Target& one) { return one.is_pose() && arm.size() - std::ssize(one.carried) > 6; };
+  if (std::ranges::none_of(program.targets, leaves)) return;
+  sentences.push_back("poses do not say at which angles of its " + std::to_string(arm.size()) +
+                      " joints the arm reaches them: they are corrected for angles near those before (or --near), and "
+                      "where the controller takes another elbow another correction is due; targets by joints tell");
+}
+
 }  // namespace
 
 std::vector<std::string> warnings_of(const Program& program, const CommandModel& model,
@@ -277,6 +287,7 @@ std::vector<std::string> warnings_of(const Program& program, const CommandModel&
     sentences.emplace_back(
         "positions without orientation: they are corrected for the joints nearest to those of the target before");
   }
+  check_redundancy(program, model.nominal.chain, sentences);
   check_circumstances(program, model, circumstances, sentences);
   check_unmeasured(program, model, circumstances, sentences);
   for (const Effect& effect : model.robot.effects)

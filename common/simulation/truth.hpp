@@ -20,6 +20,7 @@ namespace demecal::inline simulation {
 //   per_load(revolute_key, prismatic_key, value) a number whose key goes by the kind of the joint
 //   tilts(stem, vector)                          angles about x and y of the joint's place; 0 where left out
 //   joint(key, joint), formula(key, tree, names)
+// Those that come of the arm's weight, or bear it, say so by takes_weight().
 // What an error does is an overload of deviation() (added to its joint, rad or m), tilt() (the rotation vector by which
 // its joint's axis tilts, rad, in the axis frame) or deform() (of links). TrueErrors lists the kinds.
 
@@ -118,6 +119,7 @@ struct Hysteresis {
     visit.motion("friction", friction_rad);
     visit.optional("per_nm", per_nm);
   }
+  bool takes_weight() const { return per_nm != 0.0; }
 };
 double deviation(const Hysteresis& error, const Situation& situation);
 
@@ -127,6 +129,7 @@ struct Compliance {
   double rad_per_nm = 0.0;
 
   void visit_fields(auto&& visit) { visit.per_load("rad_per_nm", "m_per_n", rad_per_nm); }
+  bool takes_weight() const { return true; }
 };
 double deviation(const Compliance& error, const Situation& situation);
 
@@ -150,6 +153,7 @@ struct BalanceSpring {
     visit.optional("n_per_m", n_per_m);
     visit.number("rad_per_nm", rad_per_nm);
   }
+  bool takes_weight() const { return true; }
 };
 double deviation(const BalanceSpring& error, const Situation& situation);
 
@@ -185,6 +189,7 @@ struct LinkBending {
     visit.optional("x_rad_per_nm", x_rad_per_nm);
     visit.optional("y_rad_per_nm", y_rad_per_nm);
   }
+  bool takes_weight() const { return true; }
 };
 Eigen::Vector3d tilt(const LinkBending& error, const Situation& situation);
 

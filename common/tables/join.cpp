@@ -9,6 +9,7 @@
 
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
+#include "tables/time_stamp.hpp"
 
 namespace demecal::inline tables {
 namespace {
@@ -151,6 +152,23 @@ JoinedRows join_by_time(const std::vector<CsvTable>& tables, const std::vector<J
   joined.sentence = std::to_string(joined.rows.size()) + " rows joined by time, at most " + seconds_text(widest_s) +
                     " apart" + no_partner_text(left_out);
   return joined;
+}
+
+WholeDays find_whole_days(const JoinKeys& lead, const JoinKeys& other, double within_s, double offset_s) {
+  WholeDays found;
+  const std::vector<std::size_t> order = by_time(other);
+  if (order.empty()) return found;
+  for (const int days : {0, -1, 1}) {
+    std::size_t partners = 0;
+    for (const double lead_s : lead.times_s) {
+      const double time_s = lead_s - offset_s - kDay_s * days;
+      const double apart_s = std::abs(other.times_s[order[nearest_place(other, order, time_s)]] - time_s);
+      if (apart_s <= within_s) ++partners;
+    }
+    if (days == 0) found.as_given = partners;
+    if (days == 0 || partners > found.partners) found = {days, partners, found.as_given};
+  }
+  return found;
 }
 
 }  // namespace demecal::inline tables

@@ -61,6 +61,14 @@ JoinedRows join_by_order(const std::vector<CsvTable>& tables, std::size_t lead);
 JoinedRows join_by_time(const std::vector<CsvTable>& tables, const std::vector<JoinKeys>& keys, std::size_t lead,
                         const JoinRule& rule, double offset_s);
 
+/// Whole days to add to the times of another table, both being of clocks without dates: where more rows of the leading
+/// one then have a partner than as the times stand, -1 or 1, with how many.
+struct WholeDays {
+  int days = 0;
+  std::size_t partners = 0, as_given = 0;  ///< rows of the leading table that have one with these days, and without
+};
+WholeDays find_whole_days(const JoinKeys& lead, const JoinKeys& other, double within_s, double offset_s);
+
 /// The offset by which distances between measured points are those between the points that the arm predicts at the
 /// joints of the rows nearest in time; where its tool does not suit, that by which base and tool of least squares bring
 /// the flanges nearest to the points. Throws InputError where no offset fits, or several do that would give other

@@ -12,8 +12,6 @@
 namespace demecal::inline tables {
 namespace {
 
-constexpr double kDay_s = 86400.0;
-
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
@@ -27,6 +25,12 @@ class StampReader {
   bool take(char expected) {
     if (rest_.empty() || rest_.front() != expected) return false;
     rest_.remove_prefix(1);
+    return true;
+  }
+  /// Whatever its letters' case.
+  bool take_word(std::string_view word) {
+    if (lower_case(std::string(rest_.substr(0, word.size()))) != word) return false;
+    rest_.remove_prefix(word.size());
     return true;
   }
   bool take_one_of(std::string_view expected) {
@@ -87,6 +91,7 @@ std::optional<double> take_date(StampReader& reader) {
   return year_first ? day_s(*first, *month, *last) : day_s(*last, *month, *first);
 }
 
+/// "19:39:57.25" or "7:39:57.25 PM".
 std::optional<double> take_clock(StampReader& reader) {
   const auto hour = reader.digits(1, 2);
   if (!hour || *hour > 23 || !reader.take(':')) return std::nullopt;
@@ -100,7 +105,11 @@ std::optional<double> take_clock(StampReader& reader) {
     if (!fraction) return std::nullopt;
     seconds += *fraction;
   }
-  return seconds;
+  reader.take(' ');
+  const bool morning = reader.take_word("am");
+  if (!morning && !reader.take_word("pm")) return seconds;
+  if (*hour < 1 || *hour > 12) return std::nullopt;
+  return seconds + 3600.0 * ((morning ? 0 : 12) - (*hour == 12 ? 12 : 0));
 }
 
 /// "Z" or "+01:00": what to subtract.

@@ -10,6 +10,8 @@
 
 namespace demecal::inline tables {
 
+inline constexpr double kDay_s = 86400.0;
+
 /// A moment: seconds since 1970 (UTC where the stamp gives a zone, else of its own clock), or since midnight where
 /// there is no date.
 struct TimeStamp {
@@ -18,9 +20,9 @@ struct TimeStamp {
   bool zoned = false;  ///< with Z or an offset
 };
 
-/// "2026-11-24T19:39:57.250Z", "2026-11-24 19:39:57,25", "24.11.2026 19:39:57", "19:39:57.25" and the like. Nothing
-/// where the text is none of these, or no such day or time exists; days between strokes (11/12/2026) may be months and
-/// are none.
+/// "2026-11-24T19:39:57.250Z", "2026-11-24 19:39:57,25", "24.11.2026 19:39:57", "19:39:57.25", "7:39:57.25 PM" and the
+/// like. Nothing where the text is none of these, or no such day or time exists; days between strokes (11/12/2026) may
+/// be months and are none.
 std::optional<TimeStamp> parse_time_stamp(std::string_view text);
 
 /// What a column of times held.

@@ -282,8 +282,9 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
       ->check(CLI::Range(-273.15, 1000.0));
   command
       ->add_option("--tool-mm", request->tool_mm,
-                   "X Y Z of the program's tool point on the flange, where it is not the tool that was measured; a "
-                   "tool that the program states comes first")
+                   "X Y Z (or X,Y,Z) of the program's tool point on the flange, where it is not the tool that was "
+                   "measured; a tool that the program states comes first")
+      ->delimiter(',')
       ->expected(3);
   command->callback([request, &exit_code] { exit_code = run_apply(*request); });
 }

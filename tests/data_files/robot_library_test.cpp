@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -87,15 +88,22 @@ const std::vector<PublishedStand> kPublished = {
 
 const std::filesystem::path kLibrary = std::filesystem::path(DEMECAL_SOURCE_DIR) / "configs/robots";
 
-class LibraryArms : public ::testing::TestWithParam<LibraryArm> {};
+class LibraryArms : public ::testing::TestWithParam<LibraryArm> {
+ protected:
+  void SetUp() override {
+    if (std::filesystem::exists(file_)) urdf_ = parse_urdf(read_file(file_), file_);
+    if (GetParam().tip != nullptr) tip_ = GetParam().tip;
+  }
+
+  const std::filesystem::path file_ =
+      std::filesystem::path(DEMECAL_SOURCE_DIR) / "../shared/data/urdf" / (std::string(GetParam().urdf) + ".urdf");
+  std::optional<UrdfFile> urdf_;  ///< its description, where it is there
+  std::optional<std::string> tip_;
+};
 
 TEST_P(LibraryArms, StandWithinAHundredthOfAMillimetreOfTheirDescription) {
-  const std::filesystem::path source = DEMECAL_SOURCE_DIR;
-  const auto file = source / "../shared/data/urdf" / (std::string(GetParam().urdf) + ".urdf");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
-  const UrdfFile urdf = parse_urdf(read_file(file), file);
-  const UrdfArm arm =
-      arm_between(urdf, {}, GetParam().tip == nullptr ? std::nullopt : std::optional<std::string>(GetParam().tip));
+  if (!urdf_) GTEST_SKIP() << "needs " << file_;
+  const UrdfArm arm = arm_between(*urdf_, {}, tip_);
   const Chain described = equivalent_chain(arm.drawing).chain;
   const Robot robot = load_robot(kLibrary / (std::string(GetParam().robot) + ".yaml"));
   ASSERT_EQ(robot.chain.size(), described.size());
@@ -119,18 +127,14 @@ std::string as_controllers_count(std::string text) {
 }
 
 TEST_P(LibraryArms, SayWhereTheControllerCountsFromWhereThatIsElsewhere) {
-  const std::filesystem::path source = DEMECAL_SOURCE_DIR;
-  const auto file = source / "../shared/data/urdf" / (std::string(GetParam().urdf) + ".urdf");
-  if (!std::filesystem::exists(file)) GTEST_SKIP() << "needs " << file;
-  const UrdfFile urdf = parse_urdf(read_file(file), file);
-  const UrdfArm arm =
-      arm_between(urdf, {}, GetParam().tip == nullptr ? std::nullopt : std::optional<std::string>(GetParam().tip));
+  if (!urdf_) GTEST_SKIP() << "needs " << file_;
+  const UrdfArm arm = arm_between(*urdf_, {}, tip_);
   const bool elsewhere = std::ranges::any_of(
       arm.notes, [](const auto& note) { return note.find("controllers count") != std::string::npos; });
   const std::string text = as_controllers_count(read_file(kLibrary / (std::string(GetParam().robot) + ".yaml")));
   ASSERT_EQ(!text.empty(), elsewhere);
   if (!elsewhere) return;
-  const Chain counted = equivalent_chain(arm_between(urdf, "base", arm.tip).drawing).chain;
+  const Chain counted = equivalent_chain(arm_between(*urdf_, "base", arm.tip).drawing).chain;
   const Robot robot = read_robot(parse_yaml(text, "robot.yaml").with_version("robot", 1));
   RandomStream stream{1852};
   for (int i = 0; i < 20; ++i) {

@@ -91,13 +91,25 @@ std::string shipped_preparation() {
   return all;
 }
 
+/// Joined by the times of day of one table, which passes midnight.
+const std::string kJoinedByTime =
+                      "demecal_dataset: 1\nrobot: robot.yaml\nposes:\n"
+                      "  - {file: poses.csv, columns: {joints: [q1_deg, q2_mm], time: t}}\n"
+                      "  - {file: poses.csv, columns: {position: [x_mm, y_mm, z_mm], time: t}}\n"
+                      "join: {by: time, within_s: 5}\n",
+                  kOverMidnight =
+                      "t;q1_deg;q2_mm;x_mm;y_mm;z_mm\n11:59:59.5 PM;1;2;3;4;5,5\n"
+                      "12:00:10 AM;2;3;4;5;6,5\n";
+
 }  // namespace
 
 std::vector<Target> file_targets() {
-  const std::string files = kDataSetText + std::string(kNextFile) + kRobotText + std::string(kNextFile) + kPosesText;
+  const std::string files = kDataSetText + std::string(kNextFile) + kRobotText + std::string(kNextFile) + kPosesText,
+                    joined =
+                        kJoinedByTime + std::string(kNextFile) + kRobotText + std::string(kNextFile) + kOverMidnight;
   return {{"robot", {kRobotText, shipped("configs/robots/ur10.yaml")}, reader("one.yaml", load_robot)},
           {"job", {kJobText, shipped("configs/jobs/demo.yaml")}, reader("job.yaml", load_job)},
-          {"data_set", {files}, read_data_set},
+          {"data_set", {files, joined}, read_data_set},
           {"scenario", {kScenarioText, shipped("configs/scenarios/demo.yaml")}, reader("scenario.yaml", load_scenario)},
           {"preparation", {shipped_preparation()}, read_preparation},
           {"frames",

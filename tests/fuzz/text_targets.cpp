@@ -78,6 +78,11 @@ void read_foreign_table(std::string_view bytes) {
     for (const CsvRow& row : read.rows) {
       for (const std::string& field : row.fields) parse_time_stamp(field);
     }
+    for (std::size_t column = 0; column < std::min<std::size_t>(read.columns.size(), 3); ++column) {
+      CsvTable timed = read;
+      std::optional<double> origin_s;
+      write_times_as_seconds(timed, column, origin_s);
+    }
   } catch (const InputError&) {
   }
 }

@@ -223,6 +223,14 @@ TEST(Apply, ADeclaredHomeTellsTheConfigurationAsNearDoes) {
   EXPECT_EQ(applied.result("a.v2"), near);
 }
 
+TEST(Apply, TakesAToolPointWithBlanksOrCommas) {
+  Applied applied;
+  EXPECT_EQ(applied.apply("a.csv", kCsv, {"--tool-mm", "10", "-20", "150"}).code, 0);
+  EXPECT_EQ(applied.apply("b.csv", kCsv, {"--tool-mm", "10,-20,150"}).code, 0);
+  EXPECT_EQ(applied.result("a.csv"), applied.result("b.csv"));
+  EXPECT_EQ(applied.apply("c.csv", kCsv, {"--tool-mm", "10,-20"}).code, 10);
+}
+
 TEST(Apply, SaysFirstThatTheDataOfTheModelHadFindings) {
   Applied applied;
   EXPECT_EQ(applied.apply("a.csv", kCsv).err.find("check of the data"), std::string::npos);

@@ -9,6 +9,7 @@
 
 #include "corrected_arm.hpp"
 #include "languages/named_languages.hpp"
+#include "languages/written_program.hpp"
 #include "parsed_programs/payload_flow.hpp"
 
 namespace demecal {

@@ -231,6 +231,17 @@ TEST(Summary, ShowsNominalCorrectedAndDifference) {
   EXPECT_THAT(json, HasSubstr("\"nominal\":[17.188"));
 }
 
+TEST(Summary, SaysInBothFormsHowJointsAreTakenToCount) {
+  const CommandModel model = wave_model(2e-3);
+  CorrectedProgram corrected = corrected_joints(model, joints_with(0.5, 0.2));
+  const std::string none = summary_json(corrected, model.nominal.chain);
+  EXPECT_THAT(none, HasSubstr("\"notes\":[]"));
+  corrected.program.joint_counting = "Joint 3 counts from the ground.";
+  EXPECT_THAT(summary_json(corrected, model.nominal.chain),
+              HasSubstr("\"notes\":[\"Joint 3 counts from the ground.\"]"));
+  EXPECT_THAT(summary_table(corrected, model.nominal.chain), HasSubstr("at most\nJoint 3 counts from the ground.\n"));
+}
+
 TEST(Summary, SaysWhereTheBaseIsThatPosesAreCountedFrom) {
   const CommandModel model = wave_model(2e-3);
   Chain arm = model.nominal.chain;

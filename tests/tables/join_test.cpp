@@ -189,6 +189,18 @@ TEST(JoinByTime, RefusesOffsetsThatCannotBeTold) {
               HasSubstr("at no offset of the clocks"));
 }
 
+TEST(JoinByTime, FindsTheDayOfClocksWithoutDates) {
+  JoinKeys lead, other;
+  lead.times_s = {86390.0, 86400.0 + 20.0, 86400.0 + 30.0};  // past midnight
+  other.times_s = {25.0, 15.0, 700.0};                       // begun behind it
+  EXPECT_EQ(find_whole_days(lead, other, 6.0, 0.0).days, 1);
+  EXPECT_EQ(find_whole_days(lead, other, 6.0, 0.0).partners, 2u);
+  EXPECT_EQ(find_whole_days(other, lead, 6.0, 0.0).days, -1);
+  EXPECT_EQ(find_whole_days(lead, lead, 6.0, 0.0).days, 0);
+  EXPECT_EQ(find_whole_days(lead, other, 6.0, 5000.0).days, 0) << "no day helps";
+  EXPECT_EQ(find_whole_days(lead, {}, 6.0, 0.0).days, 0);
+}
+
 TEST(JoinByTime, RefusesTheFirstRowWithoutOneInTime) {
   std::vector<JoinKeys> keys(2);
   keys[0].times_s = {1.0, 2.0, 9.0};
@@ -208,9 +220,21 @@ TEST(TimeStamps, AreSecondsWhateverTheirForm) {
   EXPECT_EQ(parse_time_stamp("2026-11-24T13:00:00,5+01:00")->seconds, noon + 0.5);
   EXPECT_EQ(parse_time_stamp("24.11.2026 12:00:02")->seconds, noon + 2.0);
   EXPECT_EQ(parse_time_stamp("12:00:01.5")->seconds, 43201.5);
+  EXPECT_EQ(parse_time_stamp("11:50:29.449 PM")->seconds, 23 * 3600.0 + 50 * 60.0 + 29.449);
+  EXPECT_EQ(parse_time_stamp("12:00:01AM")->seconds, 1.0);
+  EXPECT_EQ(parse_time_stamp("2026-11-24 12:00:03 pm")->seconds, noon + 3.0);
   EXPECT_EQ(parse_time_stamp("1970-01-02 00:00:00")->seconds, 86400.0);
-  for (const char* wrong : {"", "12", "12:00", "24:00:00", "2026-13-01 00:00:00", "2026-11-24", "12:00:00 h", "1:2:3"})
+  for (const char* wrong : {"", "12", "12:00", "24:00:00", "2026-13-01 00:00:00", "2026-11-24", "12:00:00 h", "1:2:3",
+                            "13:00:00 PM", "00:00:00 AM", "11:00:00 PMs"})
     EXPECT_FALSE(parse_time_stamp(wrong)) << wrong;
+}
+
+TEST(TimeStamps, OfTwelveHoursAreReadBesideDecimalCommas) {
+  CsvTable table = read_table("t;x;y\n11:59:59.449 PM;1,5;2,5\n12:00:02.449 AM;2,5;3,5\n", "p").table;
+  std::optional<double> origin_s;
+  EXPECT_TRUE(write_times_as_seconds(table, 0, origin_s).stamps);
+  const TableColumn column(table, {"t", {}}, Quantity::time, {});
+  EXPECT_NEAR(column.number(table.rows[1]) - column.number(table.rows[0]), 3.0, 1e-9);
 }
 
 TEST(TimeStamps, BecomeAColumnOfSecondsSinceMidnight) {
