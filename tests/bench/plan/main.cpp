@@ -205,7 +205,8 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--drift", options.prior.drift,
                "series C after a model of B alone and with that of A, in place of B and C");
-  app.add_flag("--stations", options.prior.stations, "series A, B and 100 poses of C as stations, in place of B and C");
+  app.add_flag("--stations", options.prior.stations,
+               "series C after a model of A and B as stations, in place of B and C");
   app.add_option("--first-draw", options.prior.first_draw, "its number")->capture_default_str();
   app.add_flag("--json", options.json, "one JSON object a line");
   CLI11_PARSE(app, argc, argv);

@@ -12,7 +12,6 @@
 
 #include "config/model_file.hpp"
 #include "data_files/data_set_file.hpp"
-#include "fitting/fit.hpp"
 #include "fitting/stations.hpp"
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
@@ -114,28 +113,6 @@ void bench_series(const char* letter, const std::string& name, const NamedModel&
   }
 }
 
-/// Series A, B and 100 poses of C fitted as one arm; the errors of C's accept poses.
-void bench_stations(const PriorOptions& options) {
-  constexpr int kPosesOfC = 100;
-  std::vector<DataSet> whole;
-  for (const char* letter : {"a", "b", "c"}) whole.push_back(load_data_set(series_file(letter)));
-  std::vector<Accepted> draws;
-  for (int draw = options.first_draw; draw < options.first_draw + options.draws; ++draw) {
-    std::vector<DataSet> sets = whole;
-    sets.back() = drawn_from(whole.back(), kPosesOfC, RandomStream{800, kPosesOfC, static_cast<std::uint64_t>(draw)});
-    const std::size_t of_c = poses_of(sets.back(), PoseSet::accept).size();
-    const DataSet data = joined_stations(sets, StationTools::own);
-    std::vector<std::size_t> accept = poses_of(data, PoseSet::accept);
-    accept.erase(accept.begin(), accept.end() - static_cast<std::ptrdiff_t>(of_c));
-    const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
-    const Fit placed = fit_registration(data, calibration, {.registration = true, .tool = true},
-                                        with_tools_of_stations(nominal_robot(data), data));
-    draws.push_back(
-        {error_figures(diagnosed(data).robot, data, accept).rms_mm, error_figures(placed.robot, data, accept).rms_mm});
-  }
-  print_draws("c with a, b", kPosesOfC, draws, options.json);
-}
-
 }  // namespace
 
 bool bench_priors(const PriorOptions& options) {
@@ -150,18 +127,20 @@ bool bench_priors(const PriorOptions& options) {
         "rms error on accept poses, mm, of an old model after few new poses\n{:<12} {:>5} {:>6} {:>7} {:>6} {:>14} "
         "{}\n",
         "series", "poses", "least", "median", "most", "base and tool", "worse than these");
+  const auto old = [&] {
+    return options.model.empty() ? model_of_series("a") : NamedModel{options.model, load_model(options.model)};
+  };
   if (options.stations) {
-    bench_stations(options);
-    return true;
-  }
-  const NamedModel old =
-      options.model.empty() ? model_of_series("a") : NamedModel{options.model, load_model(options.model)};
-  if (options.drift) {
+    const DataSet both =
+        joined_stations({load_data_set(series_file("a")), load_data_set(series_file("b"))}, StationTools::own);
+    bench_series("c", "c by a with b", {"series A and B", diagnosed(both)}, {}, options);
+  } else if (options.drift) {
     const NamedModel latest = model_of_series("b");
     bench_series("c", "c by b", latest, {}, options);
-    bench_series("c", "c by b and a", latest, {old}, options);
+    bench_series("c", "c by b and a", latest, {old()}, options);
   } else {
-    for (const char* letter : {"b", "c"}) bench_series(letter, letter, old, {}, options);
+    const NamedModel first = old();
+    for (const char* letter : {"b", "c"}) bench_series(letter, letter, first, {}, options);
   }
   return true;
 }

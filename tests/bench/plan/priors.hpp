@@ -10,7 +10,7 @@ struct PriorOptions {
   int draws = 5;      ///< of poses, for each number of them
   int first_draw = 1;
   bool drift = false;  ///< instead, series C after a model of B alone and with that of A, which tells the robot's drift
-  bool stations = false;  ///< instead, series A, B and 100 poses of C as stations of one calibration without a prior
+  bool stations = false;  ///< instead, series C after a model of A and B as stations of one calibration
   bool json = false;
 };
 
