@@ -42,8 +42,8 @@ Eigen::Index tiles_for(Eigen::Index count, Eigen::Index each) {
 /// Adds to a tile the products of `terms` columns of kTileRows numbers with rows of kTileColumns, so many registers of
 /// a row at a time that all their sums stay in registers.
 template <typename Numbers, int kRegisters>
-[[gnu::always_inline]] inline void add_terms(Eigen::Index terms, const double* left, const double* right,
-                                             double* tile) {
+[[gnu::always_inline]] inline void add_packed_terms(Eigen::Index terms, const double* left, const double* right,
+                                                    double* tile) {
   using InRegister = typename Numbers::InRegister;
   using Anywhere = typename Numbers::Anywhere;
   constexpr int kNumbers = sizeof(InRegister) / sizeof(double), kSums = kTileRows * kRegisters;
@@ -66,18 +66,18 @@ template <typename Numbers, int kRegisters>
 #if defined(DEMECAL_VECTOR_UNIT)
 DEMECAL_VECTOR_UNIT("arch=x86-64-v4")
 void add_to_tile(Eigen::Index terms, const double* left, const double* right, double* tile) {
-  add_terms<EightNumbers, 1>(terms, left, right, tile);
+  add_packed_terms<EightNumbers, 1>(terms, left, right, tile);
 }
 
 DEMECAL_VECTOR_UNIT("arch=x86-64-v3")
 void add_to_tile(Eigen::Index terms, const double* left, const double* right, double* tile) {
-  add_terms<FourNumbers, 2>(terms, left, right, tile);
+  add_packed_terms<FourNumbers, 2>(terms, left, right, tile);
 }
 
 DEMECAL_VECTOR_UNIT("default")
 #endif
 void add_to_tile(Eigen::Index terms, const double* left, const double* right, double* tile) {
-  add_terms<TwoNumbers, 2>(terms, left, right, tile);
+  add_packed_terms<TwoNumbers, 2>(terms, left, right, tile);
 }
 
 /// Columns first .. first + width - 1 of the rows, row after row; zeros where there are no such columns.
