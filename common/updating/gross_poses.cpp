@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <numeric>
-#include <optional>
 #include <utility>
 
 #include "decompositions/decompositions.hpp"
@@ -38,30 +35,6 @@ LeftOut left_out_by(const PriorModel& prior, const BeliefSizes& sizes, const New
   return left_out(prior.covariance(sizes.factors, sizes.of_joint), rows, sizes.noise);
 }
 
-/// A pose by its place, by how many times it is further out than is usual when it has no part in the sizes.
-struct Suspect {
-  std::size_t place;
-  double times;
-  BeliefSizes without;  ///< likeliest without it
-};
-
-/// The places of what may be gross, the worst first. Among few poses one that is bends what the others predict so far
-/// that another may look worse.
-std::vector<std::size_t> suspected_places(const LeftOut& found) {
-  constexpr double kSuspect = 2.0;
-  constexpr std::size_t kFew = 20, kMost = 8;
-  std::vector<std::size_t> places(found.standard.size());
-  std::iota(places.begin(), places.end(), std::size_t{0});
-  std::ranges::stable_sort(places, std::greater{}, [&](std::size_t place) { return found.standard[place]; });
-  if (places.size() <= kFew) {
-    places.resize(std::min(places.size(), kMost));
-  } else {
-    places.resize(1);
-    if (found.standard[places[0]] < kSuspect * median(found.standard)) places.clear();
-  }
-  return places;
-}
-
 }  // namespace
 
 LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise) {
@@ -83,6 +56,8 @@ LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double 
 
 std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& rows, const BeliefSizes& sizes,
                                      JointSizes joints) {
+  constexpr double kSuspect = 2.0;
+  constexpr std::size_t kFew = 20;
   constexpr std::size_t kOneIn = 10;  ///< poses is looked for so, and one of few: more of them are no errors
   constexpr std::size_t kFewest = 6;  ///< of fewer, base and tool follow the one that is
   const std::size_t poses = rows.field.poses.size(),
@@ -94,20 +69,19 @@ std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& row
   BeliefSizes present = sizes;
   for (std::size_t searched = 0; searched < most; ++searched) {
     const NewRows all = rows_at_places(rows, kept);
-    std::optional<Suspect> worst;
-    for (const std::size_t place : suspected_places(left_out_by(prior, present, all))) {
-      std::vector<std::size_t> fewer = kept;
-      fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(place));
-      const NewRows others = rows_at_places(rows, fewer);
-      BeliefSizes without = likeliest_sizes(prior, others, joints);
-      const double times =
-          left_out_by(prior, without, all).standard[place] / most_expected(left_out_by(prior, without, others));
-      if (times > 1.0 && (!worst || times > worst->times)) worst = Suspect{place, times, std::move(without)};
-    }
-    if (!worst) break;
-    gross.push_back(kept[worst->place]);
-    kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(worst->place));
-    present = std::move(worst->without);
+    const LeftOut by_all = left_out_by(prior, present, all);
+    const auto worst = std::ranges::max_element(by_all.standard);
+    // One that is gross bends what few others predict, so that these look bad as well.
+    if (kept.size() > kFew && *worst < kSuspect * median(by_all.standard)) break;
+    const auto place = worst - by_all.standard.begin();
+    std::vector<std::size_t> fewer = kept;
+    fewer.erase(fewer.begin() + place);
+    const NewRows others = rows_at_places(rows, fewer);
+    present = likeliest_sizes(prior, others, joints);
+    const double standard = left_out_by(prior, present, all).standard[static_cast<std::size_t>(place)];
+    if (standard <= most_expected(left_out_by(prior, present, others))) break;
+    gross.push_back(kept[static_cast<std::size_t>(place)]);
+    kept = std::move(fewer);
   }
   for (std::size_t& place : gross) place = rows.field.poses[place];
   std::ranges::sort(gross);

@@ -17,8 +17,8 @@ struct LeftOut {
 LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise);
 
 /// The poses (of the data set, in its order) that are gross errors: others predict them far worse than usual. One gross
-/// error among few poses is taken for noise or for a change of everything, so the worst are also judged by the sizes
-/// that are likeliest without them, of six poses and more.
+/// error among few poses is taken for noise or for a change of everything, so the worst is also judged by the sizes
+/// that are likeliest without it, of six poses and more.
 std::vector<std::size_t> gross_poses(const PriorModel& prior, const NewRows& rows, const BeliefSizes& sizes,
                                      JointSizes joints);
 
