@@ -35,10 +35,16 @@ constexpr std::array<DriftKind, 5> kDriftKinds{{{&AssumedDrift::offset_rad, "zer
 
 /// The place in kDriftKinds.
 int drift_kind(const ParameterId& id, const CorrectedRobot& robot) {
-  if (id.kind == ParameterId::Kind::effect)
-    return is_of_transmission(robot.effects[static_cast<std::size_t>(id.index)]) ? 3 : 4;
-  if (!id.is_angle()) return 2;
-  return id.link == LinkParameter::theta ? 0 : 1;
+  double AssumedDrift::*size = &AssumedDrift::angle_rad;
+  if (id.kind == ParameterId::Kind::effect) {
+    const bool of_transmission = is_of_transmission(robot.effects[static_cast<std::size_t>(id.index)]);
+    size = of_transmission ? &AssumedDrift::transmission_rad : &AssumedDrift::effect_motion;
+  } else if (!id.is_angle()) {
+    size = &AssumedDrift::length_m;
+  } else if (id.link == LinkParameter::theta) {
+    size = &AssumedDrift::offset_rad;
+  }
+  return static_cast<int>(std::ranges::find(kDriftKinds, size, &DriftKind::size) - kDriftKinds.begin());
 }
 
 using Models = std::vector<const CalibratedModel*>;
