@@ -87,8 +87,10 @@ void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const F
   constexpr Eigen::Index kColumnsAtATime = 256;
   const ResidualField& validation = loop.linearization.validation;
   if (validation.poses.empty() || candidates.empty()) return;
+  std::vector<SampledEffect> sampled;
+  for (const Candidate& candidate : loop.candidates) sampled.push_back({candidate.effect, validation.states});
   EffectColumns columns;
-  for (const Candidate& candidate : loop.candidates) columns.append(candidate.effect, loop.robot, validation.states);
+  columns.append(sampled, loop.robot);
   columns.pack();
   const std::vector<ColumnSpan>& spans = columns.spans();
   std::vector<std::size_t> begins{0};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <set>
 #include <string>
@@ -18,6 +19,7 @@
 #include "explanations/causes.hpp"
 #include "explanations/set_models.hpp"
 #include "next_measurement/next_measurement.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 
 namespace demecal::inline diagnosis {
@@ -110,10 +112,14 @@ std::vector<PricedEffect> searched_effects(const LoopEnd& end, bool vary) {
 bool leave_out_implausible(const LoopEnd& end, const SetModels& models, const std::vector<EffectSet>& sets,
                            std::vector<PricedEffect>& effects) {
   const auto& states = end.linearization.fitted.states;
+  std::vector<std::vector<Effect>> found(sets.size());
+  in_pieces(sets.size(), [&](std::size_t i) {
+    DiagnosedModel model = models.with(sets[i].effects);
+    for (Effect& effect : model.robot.effects)
+      if (is_implausibly_large(effect, end.problem.data.robot, states)) found[i].push_back(std::move(effect));
+  });
   std::vector<Effect> implausible;
-  for (const EffectSet& set : sets)
-    for (const Effect& effect : models.with(set.effects).robot.effects)
-      if (is_implausibly_large(effect, end.problem.data.robot, states)) implausible.push_back(effect);
+  for (const std::vector<Effect>& own : found) std::ranges::copy(own, std::back_inserter(implausible));
   const auto is_out = [&](const PricedEffect& one) {
     const auto is_it = [&](const Effect& other) { return other.same_law_as(one.effect); };
     return std::ranges::any_of(implausible, is_it) && std::ranges::none_of(end.model.robot.effects, is_it);
@@ -168,10 +174,13 @@ void judge_new_effects(const LoopEnd& end, const SetModels& models, const std::v
   found.model = refined(end.problem, models.with(set), kSteps);
   found.rounds = judged_together(end, found.model);
   const FittedSet fitted(models.problem(), set);
-  for (Round& round : found.rounds) {
+  in_pieces(found.rounds.size(), [&](std::size_t i) {
+    Round& round = found.rounds[i];
     const auto place =
         std::ranges::find_if(set, [&](std::size_t effect) { return effects[effect].effect.same_law_as(round.effect); });
     round.rivals = rivals_beside(fitted, static_cast<std::size_t>(place - set.begin()), effects);
+  });
+  for (const Round& round : found.rounds) {
     found.stopped = found.stopped || (watch && !watch(round));
     if (round.verdict == Verdict::added) continue;
     std::erase_if(found.model.robot.effects, [&](const Effect& effect) { return effect.same_law_as(round.effect); });

@@ -63,7 +63,7 @@ RandomStream Group::random(RandomPurpose purpose) const {
                       outcome_.rounds.size()};
 }
 
-std::optional<std::size_t> Group::best_candidate() const {
+std::optional<std::size_t> Group::best_candidate() {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < scores_.size(); ++i) {
     if (excluded_[i] || scores_[i].rank == 0) continue;
@@ -73,16 +73,26 @@ std::optional<std::size_t> Group::best_candidate() const {
   return simplest_equivalent(is_symbolic(candidates_[*best].effect) ? named_equivalent(*best) : *best);
 }
 
-std::vector<Rival> Group::rivals(std::size_t index) const {
-  const Projection::Trial trial =
-      projection_.trial(columns_.dense(linearization_.fitted, index),
-                        RowMatrix::Zero(linearization_.validation.rows(), columns_.spans()[index].count));
-  return rivals_of(index, trial, candidates_, scores_, scan_, columns_, linearization_.fitted);
+const Group::Tried& Group::tried(std::size_t index) {
+  if (tried_ && tried_->candidate == index) return *tried_;
+  EffectColumns validation;
+  validation.append({candidates_[index].effect}, problem_.data.robot, linearization_.validation.states);
+  validation.pack();
+  Projection::Trial trial =
+      projection_.trial(columns_.dense(linearization_.fitted, index), validation.dense(linearization_.validation, 0));
+  Eigen::MatrixXd products = columns_.transposed_times(linearization_.fitted, trial.columns());
+  tried_ = Tried{index, std::move(trial), std::move(products)};
+  return *tried_;
+}
+
+std::vector<Rival> Group::rivals(std::size_t index) {
+  const Tried& own = tried(index);
+  return rivals_of(index, own.trial, own.products, candidates_, scores_, scan_);
 }
 
 /// Of candidates that explain the same and are as good a description, but for a little, the one with the fewest
 /// numbers.
-std::size_t Group::simplest_equivalent(std::size_t index) const {
+std::size_t Group::simplest_equivalent(std::size_t index) {
   std::size_t simplest = index;
   for (const Rival& rival : rivals(index)) {
     if (rival.cosine < kEquivalentCosine || rival.nats_behind > kNatsAboutEqual) continue;
@@ -96,7 +106,7 @@ std::size_t Group::simplest_equivalent(std::size_t index) const {
 }
 
 /// The catalogue's effect that a formula amounts to: as good a description, or all but the same columns.
-std::size_t Group::named_equivalent(std::size_t formula) const {
+std::size_t Group::named_equivalent(std::size_t formula) {
   std::size_t named = formula;
   for (const Rival& rival : rivals(formula)) {
     if (is_symbolic(rival.effect) || (rival.cosine < kIdenticalCosine && rival.nats_behind > kNatsToDistinguish))
@@ -123,13 +133,9 @@ void Group::update_null_maxima(std::size_t index) {
                                    random(RandomPurpose::null_distribution));
 }
 
-Round Group::evaluate(std::size_t index, Projection::Trial& trial) {
+Round Group::evaluate(std::size_t index) {
   const Effect& effect = candidates_[index].effect;
-  EffectColumns validation;
-  validation.append(effect, problem_.data.robot, linearization_.validation.states);
-  validation.pack();
-  trial =
-      projection_.trial(columns_.dense(linearization_.fitted, index), validation.dense(linearization_.validation, 0));
+  const Projection::Trial& trial = tried(index).trial;
   const auto before =
       tool_errors_mm(linearization_.validation, projection_.validation_residual(), model_.scales, problem_.data);
   const auto after = tool_errors_mm(linearization_.validation, trial.validation_residual, model_.scales, problem_.data);
@@ -153,7 +159,7 @@ Round Group::evaluate(std::size_t index, Projection::Trial& trial) {
   round.confirmed_lower = borne_out.lower;
   round.sign_stability = draws.sign_stability;
   round.interval = draws.interval;
-  round.rivals = rivals_of(index, trial, candidates_, scores_, scan_, columns_, linearization_.fitted);
+  round.rivals = rivals(index);
   round.diagnosis = law_of(effect).diagnosis(round.effect, problem_.data.robot);
   round.formula = law_of(effect).formula(round.effect, problem_.data.robot);
   return round;
@@ -178,11 +184,12 @@ std::string Group::rejection_reason(const Round& round, const Projection::Trial&
   return {};
 }
 
-void Group::add(Round round, const Projection::Trial& trial) {
+void Group::add(Round round, const Tried& chosen) {
   round.verdict = Verdict::added;
   outcome_.rounds.push_back(std::move(round));
-  projection_.add(trial);
-  scan_.follow(columns_, linearization_.fitted, projection_);
+  projection_.add(chosen.trial);
+  scan_.follow(chosen.products, chosen.trial, projection_);
+  tried_.reset();
   scores_ = scan_.scores();
   const Eigen::VectorXd& left = projection_.validation_residual();
   const Confirmation since = confirmation_of(confirmed_residual_, left, RandomPurpose::group_gain);
@@ -222,8 +229,7 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
     const auto index = best_candidate();
     if (!index) break;
     update_null_maxima(*index);
-    Projection::Trial trial;
-    Round round = evaluate(*index, trial);
+    Round round = evaluate(*index);
     excluded_[*index] = true;
     // Beside effects just added the noise is not yet what it will be: the next group tries decoys again.
     if (candidates_[*index].decoy_kind != DecoyKind::none && added > 0) break;
@@ -234,14 +240,14 @@ GroupOutcome Group::run(const std::function<bool(const Round&)>& watch) {
       outcome_.rounds.push_back(std::move(round));
       break;
     }
-    round.reason = rejection_reason(round, trial);
+    round.reason = rejection_reason(round, tried(*index).trial);
     if (round.reason.empty()) {
       round.reason = implausibility(round.effect, problem_, model_, linearization_.fitted.states);
       round.implausible = !round.reason.empty();
     }
     outcome_.not_significant = round.p_family > rules_.family_error && !found_by_search(*index);
     if (round.reason.empty()) {
-      add(std::move(round), trial);
+      add(std::move(round), tried(*index));
       ++added;
     } else {
       round.verdict = outcome_.not_significant ? Verdict::none : Verdict::rejected;

@@ -68,17 +68,24 @@ class Group {
   std::vector<double> decoy_p_values() const;
 
  private:
-  std::optional<std::size_t> best_candidate() const;
-  std::vector<Rival> rivals(std::size_t index) const;
-  std::size_t named_equivalent(std::size_t formula) const;
-  std::size_t simplest_equivalent(std::size_t index) const;
+  /// A candidate beside the model, and all candidates' columns^T the ones that it would add.
+  struct Tried {
+    std::size_t candidate;
+    Projection::Trial trial;
+    Eigen::MatrixXd products;
+  };
+  const Tried& tried(std::size_t index);
+  std::optional<std::size_t> best_candidate();
+  std::vector<Rival> rivals(std::size_t index);
+  std::size_t named_equivalent(std::size_t formula);
+  std::size_t simplest_equivalent(std::size_t index);
   bool found_by_search(std::size_t index) const;
   void update_null_maxima(std::size_t index);
-  Round evaluate(std::size_t index, Projection::Trial& trial);
+  Round evaluate(std::size_t index);
   Confirmation confirmation_of(const Eigen::VectorXd& before, const Eigen::VectorXd& after,
                                RandomPurpose purpose) const;
   std::string rejection_reason(const Round& round, const Projection::Trial& trial) const;
-  void add(Round round, const Projection::Trial& trial);
+  void add(Round round, const Tried& chosen);
   void exclude_equivalents(const Round& round);
   void drop_unconfirmed();
   RandomStream random(RandomPurpose purpose) const;
@@ -94,6 +101,7 @@ class Group {
   Projection projection_;
   Scan scan_;
   std::vector<Score> scores_;
+  std::optional<Tried> tried_;          ///< the latest, beside the present model
   Eigen::VectorXd confirmed_residual_;  ///< of the validation rows with what they confirmed so far
   std::size_t confirmed_rounds_ = 0;    ///< rounds up to which they did
   std::vector<double> decoy_gains_;

@@ -39,18 +39,12 @@ struct NewColumns {
 
 NewColumns new_columns(const LoopEnd& end, const Linearization& linearization, const std::vector<Effect>& effects) {
   NewColumns columns;
-  for (const Effect& effect : effects) {
-    columns.fitted.append(effect, end.problem.data.robot, linearization.fitted.states);
-    columns.validation.append(effect, end.problem.data.robot, linearization.validation.states);
-  }
+  columns.fitted.append(effects, end.problem.data.robot, linearization.fitted.states);
+  columns.validation.append(effects, end.problem.data.robot, linearization.validation.states);
   columns.fitted.pack();
   columns.validation.pack();
-  columns.over_fitted.resize(linearization.fitted.rows(), 0);
-  columns.over_validation.resize(linearization.validation.rows(), 0);
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    columns.over_fitted = beside(columns.over_fitted, columns.fitted.dense(linearization.fitted, i));
-    columns.over_validation = beside(columns.over_validation, columns.validation.dense(linearization.validation, i));
-  }
+  columns.over_fitted = columns.fitted.dense(linearization.fitted);
+  columns.over_validation = columns.validation.dense(linearization.validation);
   return columns;
 }
 

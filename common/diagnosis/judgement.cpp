@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -26,6 +27,21 @@ constexpr int kConfirmationDraws = 1000;
 
 double huber_square(double error, double threshold) {
   return error <= threshold ? error * error : threshold * (2.0 * error - threshold);
+}
+
+/// Calls each(draw, as many of `count` things as there are, with replacement) for every draw.
+void draw_in_pieces(std::size_t draws, std::uint64_t name, std::size_t count,
+                    const std::function<void(std::size_t, const std::vector<std::size_t>&)>& each) {
+  constexpr std::size_t kAtOnce = 50;  // to begin a stream takes as long as hundreds of numbers
+  in_pieces((draws + kAtOnce - 1) / kAtOnce, [&](std::size_t piece) {
+    RandomStream own{name, piece};
+    std::vector<std::size_t> chosen(count);
+    const std::size_t end = std::min((piece + 1) * kAtOnce, draws);
+    for (std::size_t draw = piece * kAtOnce; draw < end; ++draw) {
+      own.indices(count, chosen);
+      each(draw, chosen);
+    }
+  });
 }
 
 /// A column for every pose and its repeats: X^T X, and X^T (what X explains and what is left) as its last column. Side
@@ -182,10 +198,9 @@ Confirmation confirmation(const std::vector<double>& before_mm, const std::vecto
   for (const auto& [first, sums] : sums_of_groups) groups.push_back(sums);
   std::vector<double> shares(kConfirmationDraws);
   const std::uint64_t name = random.name();
-  in_pieces(shares.size(), [&](std::size_t draw) {
-    RandomStream own{name, draw};
+  draw_in_pieces(shares.size(), name, groups.size(), [&](std::size_t draw, const std::vector<std::size_t>& chosen) {
     Sums drawn;
-    for (std::size_t i = 0; i < groups.size(); ++i) drawn += groups[own.index(groups.size())];
+    for (const std::size_t i : chosen) drawn += groups[i];
     shares[draw] = drawn.share();
   });
   return {all.share(), quantile(shares, 0.05)};
@@ -217,15 +232,13 @@ Resampled resampled(const ResidualField& field, const Projection::Trial& trial, 
   const Eigen::MatrixXd whole = square_product(trial.fitted);
   const std::uint64_t name = random.name();
   Eigen::MatrixXd drawn(m, draws);
-  in_pieces(static_cast<std::size_t>(draws), [&](std::size_t draw) {
-    RandomStream own{name, draw};
-    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m, m + 1);
-    for (Eigen::Index i = 0; i < sums.cols(); ++i) {
-      const auto pose = static_cast<Eigen::Index>(own.index(static_cast<std::size_t>(sums.cols())));
-      sum.reshaped() += sums.col(pose);
-    }
-    drawn.col(static_cast<Eigen::Index>(draw)) = solve_normal_equations(sum.leftCols(m), sum.col(m));
-  });
+  const auto poses = static_cast<std::size_t>(sums.cols());
+  draw_in_pieces(static_cast<std::size_t>(draws), name, poses,
+                 [&](std::size_t draw, const std::vector<std::size_t>& chosen) {
+                   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m, m + 1);
+                   for (const std::size_t pose : chosen) sum.reshaped() += sums.col(static_cast<Eigen::Index>(pose));
+                   drawn.col(static_cast<Eigen::Index>(draw)) = solve_normal_equations(sum.leftCols(m), sum.col(m));
+                 });
   Resampled result;
   const Eigen::RowVectorXd along = (whole * trial.coefficients).transpose() * drawn;
   result.sign_stability = static_cast<double>((along.array() > 0.0).count()) / draws;

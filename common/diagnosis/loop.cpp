@@ -98,14 +98,15 @@ void ClosedLoop::make_candidates(const Linearization& linearization) {
       with_shuffled(states, DecoyKind::shuffled_approach, random(RandomPurpose::shuffled_approach));
   const auto shuffled_heat =
       with_shuffled(states, DecoyKind::shuffled_temperature, random(RandomPurpose::shuffled_temperature));
+  std::vector<SampledEffect> sampled;
   for (const Candidate& candidate : candidates_) {
-    const bool sides = candidate.decoy_kind == DecoyKind::shuffled_approach;
-    const bool heat = candidate.decoy_kind == DecoyKind::shuffled_temperature;
-    columns_.append(candidate.effect, problem_.data.robot, sides ? shuffled_approach : heat ? shuffled_heat : states);
-    const bool decoy = candidate.decoy_kind != DecoyKind::none;
-    outcome_.candidates += decoy ? 0 : 1;
-    if (decoy) outcome_.decoys.push_back({.name = decoy_name(candidate)});
+    const DecoyKind kind = candidate.decoy_kind;
+    const bool sides = kind == DecoyKind::shuffled_approach, heat = kind == DecoyKind::shuffled_temperature;
+    sampled.push_back({candidate.effect, sides ? shuffled_approach : heat ? shuffled_heat : states});
+    outcome_.candidates += kind == DecoyKind::none;
+    if (kind != DecoyKind::none) outcome_.decoys.push_back({.name = decoy_name(candidate)});
   }
+  columns_.append(sampled, problem_.data.robot);
   columns_.pack();
 }
 
@@ -216,8 +217,7 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
       break;
     }
     const bool more = run_group(linearization);
-    const std::size_t held = result.model.robot.effects.size();
-    if (model_.robot.effects.size() != held) {
+    if (model_.robot.effects.size() != result.model.robot.effects.size()) {
       model_ = refined(problem_, std::move(model_), kLaterSteps);
       estimate_noise();
       linearization = eliminate_backward(problem_, model_, candidates_, outcome_);

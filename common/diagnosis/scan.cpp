@@ -41,34 +41,31 @@ Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs
            const Projection& model)
     : spans_(columns.spans()),
       naming_costs_nats_(naming_costs_nats),
+      whole_(columns.squares(field)),
       rows_(static_cast<double>(field.rows())),
       poses_(static_cast<double>(distinct_poses(field))) {
-  whole_.resize(spans_.size());
-  in_pieces(spans_.size(), [&](std::size_t i) {
-    const RowMatrix dense = columns.dense(field, i);
-    whole_[i] = dense.transpose() * dense;
-  });
-  along_.resize(columns.size(), 0);
-  follow(columns, field, model);
-}
-
-void Scan::follow(const EffectColumns& columns, const ResidualField& field, const Projection& model) {
-  const Eigen::Index known = along_.cols(), fresh = model.rank() - known;
-  RowMatrix news(field.rows(), fresh + 1);
-  news.leftCols(fresh) = model.basis().rightCols(fresh);
-  news.col(fresh) = model.residual();
-  const Eigen::MatrixXd products = columns.transposed_times(field, news);
-  along_.conservativeResize(Eigen::NoChange, model.rank());
-  along_.rightCols(fresh) = products.leftCols(fresh);
-  moment_ = products.col(fresh);
+  RowMatrix basis_and_residual(field.rows(), model.rank() + 1);
+  basis_and_residual.leftCols(model.rank()) = model.basis();
+  basis_and_residual.col(model.rank()) = model.residual();
+  const Eigen::MatrixXd products = columns.transposed_times(field, basis_and_residual);
+  along_ = products.leftCols(model.rank());
+  moment_ = products.col(model.rank());
   squares_ = model.squares();
-  invert(columns.spans());
+  invert();
 }
 
-void Scan::invert(const std::vector<ColumnSpan>& spans) {
-  grams_.assign(spans.size(), {});
-  in_pieces(spans.size(), [&](std::size_t i) {
-    const auto along = along_.middleRows(spans[i].first, spans[i].count);
+void Scan::follow(const Eigen::MatrixXd& products, const Projection::Trial& trial, const Projection& model) {
+  along_.conservativeResize(Eigen::NoChange, model.rank());
+  along_.rightCols(trial.rank) = products;
+  moment_ -= products * trial.along;
+  squares_ = model.squares();
+  invert();
+}
+
+void Scan::invert() {
+  grams_.assign(spans_.size(), {});
+  in_pieces(spans_.size(), [&](std::size_t i) {
+    const auto along = along_.middleRows(spans_[i].first, spans_[i].count);
     const Eigen::MatrixXd left = whole_[i] - along * along.transpose();
     Eigen::VectorXd scale = whole_[i].diagonal().cwiseSqrt();
     for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
@@ -161,11 +158,10 @@ void keep_nearest(std::vector<Rival>& rivals) {
   if (rivals.size() > kMostRivals) rivals.resize(kMostRivals);
 }
 
-std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
-                             const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
-                             const ResidualField& field) {
-  const RowMatrix share = explained.fitted * explained.coefficients;
-  const std::vector<double> cosines = scan.cosines(columns.transposed_times(field, share), share.squaredNorm());
+std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const Eigen::MatrixXd& products,
+                             const std::vector<Candidate>& all, const std::vector<Score>& scores, const Scan& scan) {
+  const double square = (explained.fitted * explained.coefficients).squaredNorm();
+  const std::vector<double> cosines = scan.cosines(products * explained.along, square);
   std::vector<Rival> rivals;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (i == named || all[i].decoy_kind != DecoyKind::none) continue;

@@ -33,8 +33,8 @@ class Scan {
   Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
        const Projection& model);
 
-  /// Brings the scan up to date with a model to which columns were added.
-  void follow(const EffectColumns& columns, const ResidualField& field, const Projection& model);
+  /// Brings the scan up to date with a model that took a trial in. `products`: columns^T the trial's new ones.
+  void follow(const Eigen::MatrixXd& products, const Projection::Trial& trial, const Projection& model);
 
   /// Of all candidates' columns, their share along the model's basis: columns x rank.
   const Eigen::MatrixXd& along() const { return along_; }
@@ -58,7 +58,7 @@ class Scan {
   };
   double gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
   double best_gain(const Eigen::VectorXd& moments, double squares) const;
-  void invert(const std::vector<ColumnSpan>& spans);
+  void invert();
 
   std::vector<ColumnSpan> spans_;
   std::vector<double> naming_costs_nats_;
@@ -78,10 +78,9 @@ bool is_rival(const Effect& named, const Effect& other, double cosine, double na
 void keep_nearest(std::vector<Rival>& rivals);
 
 /// Rivals of `named`. The cosine is between what it explains beyond the model and the best that the rival can make of
-/// it.
-std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const std::vector<Candidate>& all,
-                             const std::vector<Score>& scores, const Scan& scan, const EffectColumns& columns,
-                             const ResidualField& field);
+/// it. `products`: all candidates' columns^T the new ones of `explained`.
+std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const Eigen::MatrixXd& products,
+                             const std::vector<Candidate>& all, const std::vector<Score>& scores, const Scan& scan);
 
 /// Takes other forms of an effect, which are no rivals of it, out of its round.
 void exclude_own_forms(std::vector<Round>& rounds);

@@ -42,14 +42,6 @@ void number_causes(const std::vector<Effect>& effects, ExplanationProblem& probl
   }
 }
 
-/// All effects' columns over the field's rows.
-RowMatrix dense_columns(const EffectColumns& columns, const ResidualField& field) {
-  RowMatrix all(field.rows(), columns.size());
-  for (std::size_t i = 0; i < columns.spans().size(); ++i)
-    all.middleCols(columns.spans()[i].first, columns.spans()[i].count) = columns.dense(field, i);
-  return all;
-}
-
 }  // namespace
 
 SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& model,
@@ -58,22 +50,24 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
       left_out_(among(effects, model.robot)),
       linearization_(linearize_without(problem, model, left_out_)) {
   bare_.robot = with_contacts_of(std::move(bare_.robot), linearization_.ids, problem.data);
-  EffectColumns columns;
+  std::vector<SampledEffect> sampled;
   for (const PricedEffect& one : effects) {
     const auto held =
         std::ranges::find_if(model.robot.effects, [&](const Effect& other) { return other.same_law_as(one.effect); });
     if (held != model.robot.effects.end()) held_.push_back(effects_.size());
     effects_.push_back(held == model.robot.effects.end() ? one.effect : *held);
     problem_.naming_costs_nats.push_back(one.naming_cost_nats);
-    columns.append(one.effect, problem.data.robot, linearization_.fitted.states);
+    sampled.push_back({one.effect, linearization_.fitted.states});
   }
+  EffectColumns columns;
+  columns.append(sampled, problem.data.robot);
   columns.pack();
   number_causes(effects_, problem_);
   problem_.squares = linearization_.projection.squares();
   problem_.rows = static_cast<double>(linearization_.fitted.rows());
   problem_.freedom = linearization_.projection.freedom();
   problem_.poses = static_cast<double>(distinct_poses(linearization_.fitted));
-  project(dense_columns(columns, linearization_.fitted), columns.spans());
+  project(columns.dense(linearization_.fitted), columns.spans());
 }
 
 /// Makes each effect's own columns orthonormal beyond the declared model; directions that it explains are dropped.

@@ -203,17 +203,12 @@ RowMatrix PosteriorModel::model_columns(const ResidualField& field) const {
 }
 
 RowMatrix PosteriorModel::effect_columns(const std::vector<Effect>& effects, const ResidualField& field) const {
+  std::vector<Effect> everywhere = effects;
+  for (Effect& effect : everywhere) effect.ranges.clear();
   EffectColumns columns;
-  for (Effect effect : effects) {
-    effect.ranges.clear();
-    columns.append(effect, problem_.data.robot, field.states);
-  }
+  columns.append(everywhere, problem_.data.robot, field.states);
   columns.pack();
-  RowMatrix all(field.rows(), columns.size());
-  for (std::size_t i = 0; i < effects.size(); ++i) {
-    all.middleCols(columns.spans()[i].first, columns.spans()[i].count) = columns.dense(field, i);
-  }
-  return all;
+  return columns.dense(field);
 }
 
 }  // namespace demecal::inline next_measurement

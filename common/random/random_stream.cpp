@@ -37,6 +37,17 @@ std::size_t RandomStream::index(std::size_t n) {
   return static_cast<std::size_t>((static_cast<Wide>(draw()) * n) >> 64);
 }
 
+void RandomStream::indices(std::size_t n, std::span<std::size_t> values) {
+  __extension__ using Wide = unsigned __int128;
+  for (std::size_t i = 0; i < values.size(); i += 2) {
+    const Wide product = static_cast<Wide>(draw()) * n;
+    values[i] = static_cast<std::size_t>(product >> 64);
+    // Where in its part of the range the number fell is uniform again.
+    if (i + 1 < values.size())
+      values[i + 1] = static_cast<std::size_t>((static_cast<Wide>(static_cast<std::uint64_t>(product)) * n) >> 64);
+  }
+}
+
 double RandomStream::real() {
   return static_cast<double>(draw() >> 11) * 0x1.0p-53;
 }

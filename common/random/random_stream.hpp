@@ -17,6 +17,8 @@ class RandomStream {
 
   /// Uniform in [0, n); n >= 1. One number of the stream.
   std::size_t index(std::size_t n);
+  /// As many of them, each pair from one number: to 2^-64 n^2 as good as two. n < 2^24.
+  void indices(std::size_t n, std::span<std::size_t> values);
   /// Uniform in [0, 1). One number.
   double real();
   double real(double lower, double upper) { return lower + (upper - lower) * real(); }

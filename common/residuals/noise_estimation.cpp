@@ -105,17 +105,14 @@ RowMatrix even_drift(const DiagnosisProblem& problem, const ResidualField& field
   Evidence evidence;
   evidence.time = true;
   evidence.mean_time_s = sum_s / static_cast<double>(field.states.size());
+  std::vector<Effect> effects;
+  for (const EffectLaw* const law : catalogue())
+    if (law->prerequisite() == Circumstance::time)
+      std::ranges::copy(law->proposals(problem.data.robot, evidence), std::back_inserter(effects));
   EffectColumns columns;
-  for (const EffectLaw* const law : catalogue()) {
-    if (law->prerequisite() != Circumstance::time) continue;
-    for (const Effect& effect : law->proposals(problem.data.robot, evidence))
-      columns.append(effect, problem.data.robot, field.states);
-  }
+  columns.append(effects, problem.data.robot, field.states);
   columns.pack();
-  RowMatrix result(field.rows(), 0);
-  for (std::size_t effect = 0; effect < columns.spans().size(); ++effect)
-    result = beside(result, columns.dense(field, effect));
-  return result;
+  return columns.dense(field);
 }
 
 /// Among the columns of the model's numbers, those of effects that the model holds and that go with time.

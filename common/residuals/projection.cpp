@@ -86,26 +86,28 @@ Projection::Trial Projection::trial(const RowMatrix& fitted, const RowMatrix& va
   const Eigen::VectorXd turned = eigen.vectors.transpose() * moment;
   Eigen::VectorXd solution = Eigen::VectorXd::Zero(turned.size());
   result.to_basis.resize(turned.size(), turned.size());
+  result.along.resize(turned.size());
   for (Eigen::Index i = 0; i < turned.size(); ++i) {
     const double share = eigen.values[i];
     if (share < kNewShare) continue;
     solution[i] = turned[i] / share;
     result.drop += turned[i] * solution[i];
+    result.along[result.rank] = turned[i] / std::sqrt(share);
     result.to_basis.col(result.rank++) = scale.cwiseProduct(eigen.vectors.col(i)) / std::sqrt(share);
   }
   result.to_basis.conservativeResize(Eigen::NoChange, result.rank);
+  result.along.conservativeResize(result.rank);
   result.coefficients = scale.cwiseProduct(eigen.vectors * solution);
   result.validation_residual = validation_residual_ - result.validation * result.coefficients;
   return result;
 }
 
 void Projection::add(const Trial& trial) {
-  const RowMatrix fitted = trial.fitted * trial.to_basis, validation = trial.validation * trial.to_basis;
+  const RowMatrix fitted = trial.columns(), validation = trial.validation * trial.to_basis;
   const RowMatrix prior = trial.prior * trial.to_basis;
-  const Eigen::VectorXd share = fitted.transpose() * residual_ + prior.transpose() * prior_residual_;
-  residual_ -= fitted * share;
-  validation_residual_ -= validation * share;
-  prior_residual_ -= prior * share;
+  residual_ -= fitted * trial.along;
+  validation_residual_ -= validation * trial.along;
+  prior_residual_ -= prior * trial.along;
   append_columns(basis_, rank_, fitted);
   append_columns(validation_basis_, rank_, validation);
   append_columns(prior_basis_, rank_, prior);

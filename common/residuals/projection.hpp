@@ -73,10 +73,14 @@ class Projection {
   /// The same with their coefficients' least-squares values and what adding them leaves of either residual.
   struct Trial : Unexplained {
     Eigen::MatrixXd to_basis{};      ///< m x rank: makes the new columns orthonormal
-    Eigen::VectorXd coefficients{};  ///< m; 0 in directions that the model explains already
+    Eigen::VectorXd along{};         ///< rank: the residual's share along these
+    Eigen::VectorXd coefficients{};  ///< m: of the share; 0 in directions that the model explains already
     double drop = 0.0;               ///< decrease of the sum of squares
     Eigen::Index rank = 0;           ///< directions that the model does not explain
     Eigen::VectorXd validation_residual{};
+
+    /// The new columns over the fitted rows, as add() puts them beside the basis: rows x rank.
+    RowMatrix columns() const { return fitted * to_basis; }
   };
   Trial trial(const RowMatrix& fitted, const RowMatrix& validation) const;
   /// Takes a trial's columns into the model.

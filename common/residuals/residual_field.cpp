@@ -192,7 +192,8 @@ void FieldRows::fill(ResidualField& field, std::size_t number, const Observation
 
 }  // namespace
 
-RowMatrix beside(const RowMatrix& left, const RowMatrix& right) {
+RowMatrix beside(RowMatrix left, const RowMatrix& right) {
+  if (right.cols() == 0) return left;
   RowMatrix both(left.rows(), left.cols() + right.cols());
   both << left, right;
   return both;

@@ -21,7 +21,7 @@
 namespace demecal::inline residuals {
 
 /// Two matrices of equally many rows as one.
-RowMatrix beside(const RowMatrix& left, const RowMatrix& right);
+RowMatrix beside(RowMatrix left, const RowMatrix& right);
 
 /// How rows scatter beyond independent noise of unit variance, in the units of RowScales.
 struct NoiseModel {
@@ -92,12 +92,20 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
 
 using RowMatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// An effect, and where its features are wanted: what has to live as long.
+struct SampledEffect {
+  const Effect& effect;
+  const std::vector<ArmState>& states;
+};
+
 /// A column is a sum of features (one number a pose) times motions of the field (one row a measured number). Features
 /// depend on the nominal arm alone: they serve every field over the same poses.
 class EffectColumns {
  public:
-  /// Columns of one effect after another at `states` (one a pose; equally many in every call).
-  void append(const Effect& effect, const Robot& robot, const std::vector<ArmState>& states);
+  /// Columns of one effect after another, at one state a pose; equally many for every effect.
+  void append(const std::vector<SampledEffect>& effects, const Robot& robot);
+  /// The same of effects at the same states.
+  void append(const std::vector<Effect>& effects, const Robot& robot, const std::vector<ArmState>& states);
   /// Makes the appended columns ready for use.
   void pack();
 
@@ -108,8 +116,12 @@ class EffectColumns {
   Eigen::MatrixXd transposed_times(const ResidualField& field, const RowMatrix& rows) const;
   /// The same in single precision, which is enough for a null distribution and twice as fast.
   Eigen::MatrixXf transposed_times(const ResidualField& field, const RowMatrixF& rows) const;
+  /// X^T X of every effect's own columns X over the field's rows.
+  std::vector<Eigen::MatrixXd> squares(const ResidualField& field) const;
   /// The columns of one effect over the field's rows.
   RowMatrix dense(const ResidualField& field, std::size_t effect) const;
+  /// Those of all effects: size() of them.
+  RowMatrix dense(const ResidualField& field) const;
 
  private:
   struct Block {
@@ -117,6 +129,9 @@ class EffectColumns {
     std::vector<Eigen::Index> columns;  ///< which columns the features belong to, ascending
     Eigen::MatrixXd features;           ///< poses x columns
   };
+
+  /// The block that has all columns of an effect, where there is one: whose motion is one alone.
+  const Block* only_block(ColumnSpan span) const;
 
   std::vector<Block> blocks_;
   std::map<Eigen::Index, std::map<Eigen::Index, Eigen::VectorXd>> loose_;  ///< motion -> column -> features

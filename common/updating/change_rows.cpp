@@ -108,7 +108,7 @@ ScaledChangeRows scaled_change_rows(const CalibratedModel& model, const DataSet&
   add_rounding(field, data.robot.chain, compared.rounding, rows.covariance);
   rows.unstated_m = compared.noise_m * add_unstated(compared.robot, data, field, rows.covariance);
   EffectColumns columns;
-  for (const Effect& effect : effects) columns.append(effect, data.robot, field.states);
+  columns.append(effects, data.robot, field.states);
   columns.pack();
   for (std::size_t i = 0; i < effects.size(); ++i) rows.columns.emplace_back(columns.dense(field, i));
   for (std::size_t pose = 0; compared.orientation_rad > 0.0 && pose < field.poses.size(); ++pose) {

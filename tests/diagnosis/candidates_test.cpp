@@ -222,11 +222,13 @@ TEST(Rivals, AFormulaIsNoRivalOfItselfWithAPhase) {
   const Scan scan(columns, {0, 0, 0}, field, model);
   const std::vector<Candidate> candidates{{.effect = effects[0]}, {.effect = effects[1]}, {.effect = effects[2]}};
   const Projection::Trial trial = model.trial(columns.dense(field, 0), columns.dense(field, 0));
-  const std::vector<Rival> rivals = rivals_of(0, trial, candidates, scan.scores(), scan, columns, field);
+  const std::vector<Rival> rivals =
+      rivals_of(0, trial, columns.transposed_times(field, trial.columns()), candidates, scan.scores(), scan);
   ASSERT_EQ(rivals.size(), 1u);
   EXPECT_TRUE(rivals[0].effect.same_law_as(effects[2]));
   const Projection::Trial wave = model.trial(columns.dense(field, 1), columns.dense(field, 1));
-  EXPECT_FALSE(rivals_of(1, wave, candidates, scan.scores(), scan, columns, field).empty());
+  EXPECT_FALSE(
+      rivals_of(1, wave, columns.transposed_times(field, wave.columns()), candidates, scan.scores(), scan).empty());
 }
 
 TEST(Rivals, AreCandidatesThatExplainTheSame) {
@@ -248,7 +250,8 @@ TEST(Rivals, AreCandidatesThatExplainTheSame) {
   const Projection model = projection_of(field);
   const Scan scan(columns, {0, 0, 0, 0}, field, model);
   const Projection::Trial trial = model.trial(columns.dense(field, 0), columns.dense(field, 0));
-  const std::vector<Rival> rivals = rivals_of(0, trial, candidates, scan.scores(), scan, columns, field);
+  const std::vector<Rival> rivals =
+      rivals_of(0, trial, columns.transposed_times(field, trial.columns()), candidates, scan.scores(), scan);
   ASSERT_EQ(rivals.size(), 1u);
   EXPECT_TRUE(rivals[0].effect.same_law_as(candidates[1].effect));
   EXPECT_GT(rivals[0].cosine, 0.99);

@@ -94,8 +94,9 @@ TEST(Scan, FollowingTheModelIsTheSameAsBeginningAnew) {
   Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
   for (const std::size_t added : {8, 20, 31}) {
     const RowMatrix dense = tested.columns.dense(tested.field, added);
-    model.add(model.trial(dense, dense));
-    scan.follow(tested.columns, tested.field, model);
+    const Projection::Trial trial = model.trial(dense, dense);
+    model.add(trial);
+    scan.follow(tested.columns.transposed_times(tested.field, trial.columns()), trial, model);
     const std::vector<Score> followed = scan.scores();
     const std::vector<Score> anew = Scan(tested.columns, tested.naming_cost_nats, tested.field, model).scores();
     for (std::size_t i = 0; i < anew.size(); ++i) {

@@ -163,7 +163,7 @@ TEST(FormulaMisfit, AgreesWithTheProjectionOffTheModel) {
     Effect effect{.kind = "symbolic", .joint = 2};
     effect.formula = parse(text, symbolic_variables(puma()));
     EffectColumns columns;
-    columns.append(effect, beginning.data.robot, at.fitted.states);
+    columns.append({effect}, beginning.data.robot, at.fitted.states);
     columns.pack();
     const Projection::Trial trial =
         at.projection.trial(columns.dense(at.fitted, 0), RowMatrix::Zero(at.validation.rows(), 1));

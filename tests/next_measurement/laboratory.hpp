@@ -93,7 +93,7 @@ class Laboratory {
     const DiagnosisProblem problem = diagnosed(data);
     const Linearization linearization = linearize(problem, model_with(problem, instead));
     EffectColumns columns;
-    columns.append(named, data.robot, linearization.fitted.states);
+    columns.append({named}, data.robot, linearization.fitted.states);
     columns.pack();
     const Eigen::VectorXd values =
         Eigen::VectorXd::Map(named.values.data(), static_cast<Eigen::Index>(named.values.size()));

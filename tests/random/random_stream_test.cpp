@@ -39,6 +39,19 @@ TEST(RandomStream, IndexCoversItsRangeEvenly) {
   for (const int count : counts) EXPECT_NEAR(count, 10000, 500);
 }
 
+TEST(RandomStream, IndicesFromOneNumberAreEvenAndUnrelated) {
+  RandomStream random{44};
+  std::vector<int> pairs(100, 0);
+  std::vector<std::size_t> drawn(7);
+  for (int i = 0; i < 100000; ++i) {
+    random.indices(10, drawn);
+    for (std::size_t k = 0; k + 1 < drawn.size(); k += 2) ++pairs.at(10 * drawn[k] + drawn[k + 1]);
+    ASSERT_LT(drawn.back(), 10u);
+  }
+  for (const int count : pairs) EXPECT_NEAR(count, 3000, 300);
+  EXPECT_EQ(random.drawn(), 400000u);
+}
+
 TEST(RandomStream, NormalHasUnitMoments) {
   RandomStream random{43};
   double sum = 0, squares = 0;

@@ -47,7 +47,7 @@ TEST(EffectColumns, AreWhatEveryLawsCoefficientsChange) {
   }
 }
 
-TEST(EffectColumns, TransposedProductIsThatOfTheDenseColumns) {
+TEST(EffectColumns, ProductsAreThoseOfTheDenseColumns) {
   RandomStream stream{83, 2};
   const KnownArm arm = exact_arm(stream, Arm::modified, 30);
   const ResidualField field = field_of(arm, {.registration = true});
@@ -58,12 +58,14 @@ TEST(EffectColumns, TransposedProductIsThatOfTheDenseColumns) {
   const Eigen::MatrixXf rough = columns.transposed_times(field, RowMatrixF(rows.cast<float>()));
   ASSERT_EQ(columns.spans().size(), effects.size());
   ASSERT_EQ(product.rows(), columns.size());
+  const std::vector<Eigen::MatrixXd> squares = columns.squares(field);
   for (std::size_t i = 0; i < effects.size(); ++i) {
     const auto [first, count] = columns.spans()[i];
     const RowMatrix dense = columns.dense(field, i);
     const Eigen::MatrixXd expected = dense.transpose() * rows;
     const double size = dense.norm() * rows.norm();
     EXPECT_LT((product.middleRows(first, count) - expected).norm(), 1e-12 * size) << effects[i].kind;
+    EXPECT_LT((squares[i] - dense.transpose() * dense).norm(), 1e-12 * dense.squaredNorm()) << effects[i].kind;
     EXPECT_LT((rough.middleRows(first, count).cast<double>() - expected).norm(), 1e-5 * size) << effects[i].kind;
   }
 }

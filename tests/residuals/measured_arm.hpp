@@ -53,7 +53,7 @@ inline Projection projection_of(const ResidualField& field) {
 
 inline EffectColumns columns_of(const std::vector<Effect>& effects, const Robot& robot, const ResidualField& field) {
   EffectColumns columns;
-  for (const Effect& effect : effects) columns.append(effect, robot, field.states);
+  columns.append(effects, robot, field.states);
   columns.pack();
   return columns;
 }

@@ -146,8 +146,7 @@ DetectionLimit::DetectionLimit(const DiagnosisProblem& problem, const DiagnosedM
 
 double DetectionLimit::detectable(const NotFound& measure, const Effect& effect) const {
   EffectColumns columns;
-  columns.append(measure.effect, problem_.data.robot, linearization_.fitted.states);
-  columns.append(effect, problem_.data.robot, linearization_.fitted.states);
+  columns.append({measure.effect, effect}, problem_.data.robot, linearization_.fitted.states);
   columns.pack();
   const Scan scan(columns, {0.0, 0.0}, linearization_.fitted, linearization_.projection);
   const double needed = measure.smallest_detectable * std::sqrt(scan.scores()[0].visible.mean());
