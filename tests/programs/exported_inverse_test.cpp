@@ -44,8 +44,9 @@ std::vector<ExportedCommand> exported_commands(const CorrectedRobot& robot, cons
                                                const std::string& call = "corrected(stops[i], command)") {
   Algebra algebra;
   std::ostringstream code;
-  code << code_of(listing_of(corrected_arm(algebra, robot, ""), robot, "An arm"), CodeLanguage::c)
-       << inverse_in_c(described_listing(algebra, robot, robot.tool(""))) << "#include <stdio.h>\n"
+  const Listing listing = listing_of(corrected_arm(algebra, robot, ""), robot, "An arm");
+  code << code_of(listing, CodeLanguage::c) << inverse_in_c(listing, described_listing(algebra, robot, robot.tool("")))
+       << "#include <stdio.h>\n"
        << kHalfTurned << "int main(void) {\n"
        << "  static const double stops[][N] = {";
   for (const JointVector& stop : stops) code << '{' << joints_listed(stop) << "},\n";
