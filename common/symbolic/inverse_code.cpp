@@ -9,6 +9,7 @@
 #include "symbolic/calculus.hpp"
 #include "symbolic/code.hpp"
 #include "symbolic/inverse_solver.hpp"
+#include "symbolic/multiple_angles.hpp"
 #include "symbolic/parse_expression.hpp"
 #include "symbolic/printing.hpp"
 #include "symbolic/support_functions.hpp"
@@ -81,7 +82,7 @@ std::string ArmFunctions::further_support_functions() const {
 std::string ArmFunctions::nominal_forward() {
   return "static void nominal_forward(const struct circumstances* at, const double q[N], double pose[16]) {\n  "
          "(void)at;\n" +
-         symbols_read() + pose_written(plan_steps(pose_, printer_)) + "}\n\n";
+         symbols_read() + pose_written(plan_steps_with_multiples(pose_, printer_)) + "}\n\n";
 }
 
 std::string ArmFunctions::linearize() {
@@ -91,7 +92,7 @@ std::string ArmFunctions::linearize() {
     all_.insert(all_.end(), axis.to_next.begin(), axis.to_next.end());
     all_.push_back(axis.rate);
   }
-  const Steps steps = plan_steps(all_, printer_);
+  const Steps steps = plan_steps_with_multiples(all_, printer_);
   auto result = steps.results.begin() + static_cast<std::ptrdiff_t>(pose_.size());
   std::ostringstream directions, ways, rates, slides, coupled;
   bool all_turn = true;
