@@ -149,7 +149,7 @@ static double reach(const struct circumstances* at, const double goal[16], doubl
   int damped = 0, known = 0;
   for (int i = 0; i < N; ++i) start[i] = q[i];
   for (int round = 0; round < 32 && here.left >= 1e-10; ++round) {
-    if (!known) factorize(here.jacobian, damped ? 0.25*here.left*here.left/(most*most) : 0.0, root);
+    if (!known) factorize(here.jacobian, damped ? 0.5*here.left*here.left/(most*most) : 0.0, root);
     take_step(here.jacobian, root, here.error, q);
     const double moved = largest_motion(q, start);
     if (!damped && (round == 5 || !(moved <= most))) {
