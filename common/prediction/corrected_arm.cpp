@@ -55,14 +55,17 @@ Expression actual_of(const JointCorrection& correction, Expression commanded, in
   return commanded + added_by(correction, commanded, 'g' + std::to_string(joint));
 }
 
-/// From the base to the flange, without base and tool.
+/// From the base to the flange, without base and tool; `turned` gets the frames about whose z axes joints move.
 SymbolicFrame flange(Algebra& algebra, const Chain& chain, const std::vector<Expression>& joints,
-                     const std::vector<SymbolicMotion>& places) {
+                     const std::vector<SymbolicMotion>& places, std::vector<SymbolicFrame>& turned) {
   SymbolicFrame frame(algebra, chain.base);
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const Joint& link = chain.joints[i];
     for (const Elementary& transform : elementary_transforms(chain.convention)) {
-      if (transform.parameter == LinkParameter::theta) frame = moved(frame, places[i]);
+      if (transform.parameter == LinkParameter::theta) {
+        frame = moved(frame, places[i]);
+        turned.push_back(frame);
+      }
       advance(frame, transform, elementary_value(link, transform.parameter, joints[i]));
     }
   }
@@ -80,11 +83,58 @@ std::vector<Expression> driven_by(Algebra& algebra, const Chain& chain, const st
   return joints;
 }
 
-SymbolicFrame tool_pose(Algebra& algebra, const CorrectedRobot& robot, const std::string& target,
-                        const std::vector<Expression>& actual, const SymbolicDisplacement& by) {
+/// Where the tool stands, and on the way there the frames about whose z axes joints move.
+struct PosedArm {
+  SymbolicFrame tool;
+  std::vector<SymbolicFrame> turned;
+};
+
+PosedArm posed_arm(Algebra& algebra, const CorrectedRobot& robot, const std::string& target,
+                   const std::vector<Expression>& actual, const SymbolicDisplacement& by) {
   const std::vector<Expression> joints = driven_by(algebra, robot.chain, actual, by);
   const SymbolicFrame base = moved(SymbolicFrame(algebra), by.sensor) * SymbolicFrame(algebra, robot.sensor_from_base);
-  return base * (flange(algebra, robot.chain, joints, by.places) * SymbolicFrame(algebra, robot.tool(target)));
+  std::vector<SymbolicFrame> turned;
+  const SymbolicFrame end =
+      flange(algebra, robot.chain, joints, by.places, turned) * SymbolicFrame(algebra, robot.tool(target));
+  for (SymbolicFrame& frame : turned) frame = base * frame;
+  return {base * end, turned};
+}
+
+/// How fast a joint that stands at `driven` follows its own command, by what depends on that alone. Evolved formulas
+/// of effects are left out: their derivatives would be further functions.
+Expression rate_of(Expression driven, Expression corrected, int joint) {
+  Algebra& algebra = driven.algebra();
+  const std::string own = commanded_joint(joint), actual = actual_joint(joint);
+  const bool as_commanded = corrected->kind == ExpressionKind::symbol;
+  const Expression slope = as_commanded ? algebra.constant(1.0) : algebra.symbol(actual_rate(joint));
+  Expression rate = algebra.constant(0.0);
+  const std::vector<Part> whole{{driven, 1.0}};
+  for (const auto& [part, coefficient] : driven->kind == ExpressionKind::sum ? driven->parts : whole) {
+    const std::vector<Expression> terms = terms_of({&part, 1});
+    const bool alone = std::ranges::all_of(terms, [&](Expression term) {
+      if (term->kind == ExpressionKind::function) return term->function != Function::formula;
+      return term->kind != ExpressionKind::symbol || term->name == own || term->name == actual;
+    });
+    if (!alone) continue;
+    rate = rate + coefficient * (derivative(part, own) + derivative(part, actual) * slope);
+  }
+  return rate;
+}
+
+std::vector<JointAxis> axes_of(const Chain& chain, const PosedArm& posed, const CorrectedArm& arm) {
+  std::vector<JointAxis> axes;
+  for (std::size_t i = 0; i < arm.driven.size(); ++i) {
+    const SymbolicVector& z = posed.turned[i].axes[2];
+    const SymbolicVector& next = i + 1 < arm.driven.size() ? posed.turned[i + 1].origin : posed.tool.origin;
+    const SymbolicVector way = minus(next, posed.turned[i].origin);
+    axes.push_back({is_revolute(chain.joints[i]),
+                    {z[0], z[1], z[2]},
+                    {way[0], way[1], way[2]},
+                    rate_of(arm.driven[i], arm.actual[i], static_cast<int>(i + 1))});
+  }
+  for (const auto& [joint, from, factor] : chain.couplings)
+    axes[static_cast<std::size_t>(joint)].coupled.emplace_back(static_cast<std::size_t>(from), factor);
+  return axes;
 }
 
 /// What it depends on beside joints and masses; empty where on nothing.
@@ -148,11 +198,12 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
     arm.actual.push_back(actual_of(robot.corrections[joint], commanded[joint], i + 1));
   }
   SymbolicDisplacement by(algebra, static_cast<std::size_t>(n));
-  const SymbolicFrame without = tool_pose(algebra, robot, target, actual, by);
+  const PosedArm without = posed_arm(algebra, robot, target, actual, by);
   arm.driven = driven_by(algebra, robot.chain, actual, by);
   arm.places = by.places;
   if (robot.effects.empty()) {
-    arm.pose = without.matrix();
+    arm.pose = without.tool.matrix();
+    arm.axes = axes_of(robot.chain, without, arm);
     return arm;
   }
   SymbolicState state = symbolic_state(algebra, robot.described, commanded);
@@ -162,7 +213,7 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
     break;
   }
   state.reference_celsius = arm.reference_celsius;
-  state.tool_in_sensor = without.origin;
+  state.tool_in_sensor = without.tool.origin;
   for (std::size_t i = 0; i < robot.effects.size(); ++i) {
     const Effect& effect = robot.effects[i];
     const std::vector<SymbolicUnit> units = held_units(effect, state, effects + std::to_string(i + 1));
@@ -173,8 +224,10 @@ CorrectedArm corrected_arm(Algebra& algebra, const CorrectedRobot& robot, const 
     const std::string note = note_on(effect, robot.described, !units.empty());
     if (!note.empty()) arm.notes.push_back(note);
   }
-  arm.pose = tool_pose(algebra, robot, target, actual, by).matrix();
+  const PosedArm posed = posed_arm(algebra, robot, target, actual, by);
+  arm.pose = posed.tool.matrix();
   arm.driven = driven_by(algebra, robot.chain, actual, by);
+  arm.axes = axes_of(robot.chain, posed, arm);
   arm.places = by.places;
   return arm;
 }
@@ -193,6 +246,7 @@ Listing listing_of(const CorrectedArm& arm, const CorrectedRobot& robot, const s
             "fitted; lengths in m, row by row."
           : "The pose is the tool's in the frame of the measurements, lengths in m, row by row.");
   listing.reference_celsius = arm.reference_celsius;
+  listing.axes = arm.axes;
   const std::string more = circumstances_sentence(arm);
   if (!more.empty()) listing.remarks.push_back(more);
   for (const std::string& note : arm.notes) listing.remarks.push_back("Note: " + note);

@@ -8,20 +8,19 @@ namespace {
 
 // Of six joints and more, as nearby_command() does it; the squares of singular values are those of J J'.
 constexpr const char* kApproach =
-    R"code(/* Diagonalizes a symmetric matrix by Jacobi's turns, which `vectors` collects in its columns. */
+    R"code(/* Diagonalizes a symmetric matrix by Jacobi's turns, by which the columns of `vectors` are turned too. */
 static void diagonalize(double matrix[6][6], double vectors[6][6]) {
-  for (int i = 0; i < 6; ++i)
-    for (int k = 0; k < 6; ++k) vectors[i][k] = i == k ? 1.0 : 0.0;
   for (int sweep = 0; sweep < 12; ++sweep) {
     double off = 0.0, trace = 0.0;
     for (int i = 0; i < 6; ++i) {
       trace += matrix[i][i];
       for (int k = 0; k < i; ++k) off += matrix[i][k]*matrix[i][k];
     }
-    if (!(off > 1e-28*trace*trace)) break;
+    const double least = 1e-22*trace*trace;
+    if (!(off > least)) break;
     for (int p = 0; p < 5; ++p) {
       for (int r = p + 1; r < 6; ++r) {
-        if (matrix[p][r] == 0.0) continue;
+        if (matrix[p][r]*matrix[p][r] <= least/15.0) continue; /* of 15 */
         const double ratio = 0.5*(matrix[r][r] - matrix[p][p])/matrix[p][r];
         const double t = (ratio < 0.0 ? -1.0 : 1.0)/(fabs(ratio) + sqrt(ratio*ratio + 1.0));
         const double c = 1.0/sqrt(t*t + 1.0), s = t*c;
@@ -42,23 +41,33 @@ static void diagonalize(double matrix[6][6], double vectors[6][6]) {
   }
 }
 
-/* Newton's steps from q in the directions that the arm has not lost: those with singular values above LOST, positions
-   counting over `length`. They are taken at q and two steps on, and hardly change from there. */
-static void keep_to(const struct circumstances* at, const double goal[16], double length, double q[N]) {
-  double jacobian[6][N], square[6][6], vectors[6][6], pose[16], error[6], along[6];
+/* Newton's steps from q, which `first` belongs to, in the directions that the arm has not lost: those with singular
+   values above LOST, positions counting over `length`. They are taken at q and two steps on, where they are nearly what
+   they were, and hardly change from there. */
+static void keep_to(const struct circumstances* at, const double goal[16], double length,
+                    const struct linearization* first, double q[N]) {
+  struct linearization here = *first;
+  double jacobian[6][N], turned[6][N], square[6][6], vectors[6][6], error[6], along[6];
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < 6; ++k) vectors[i][k] = i == k ? 1.0 : 0.0;
   for (int round = 0; round < 16; ++round) {
     double moved = 0.0;
-    forward_at(at, q, pose);
-    pose_error(goal, pose, error);
-    for (int i = 0; i < 6; ++i) error[i] /= i < 3 ? length : LEVER;
+    if (round == 2) linearize_at(at, goal, q, &here);
+    else if (round > 0) here.left = measure(at, goal, q, here.error);
+    for (int i = 0; i < 6; ++i) error[i] = here.error[i]/(i < 3 ? length : LEVER);
     if (round == 0 || round == 2) {
-      differentiate(forward_at, at, q, pose, 0, jacobian);
+      for (int i = 0; i < 6; ++i)
+        for (int k = 0; k < N; ++k) jacobian[i][k] = here.jacobian[i][k]/(i < 3 ? length : LEVER);
       for (int i = 0; i < 6; ++i) {
-        for (int k = 0; k < N; ++k) jacobian[i][k] /= i < 3 ? length : LEVER;
+        for (int j = 0; j < N; ++j) {
+          double sum = 0.0;
+          for (int k = 0; k < 6; ++k) sum += vectors[k][i]*jacobian[k][j];
+          turned[i][j] = sum;
+        }
         for (int k = 0; k <= i; ++k) {
-          square[i][k] = 0.0;
-          for (int j = 0; j < N; ++j) square[i][k] += jacobian[i][j]*jacobian[k][j];
-          square[k][i] = square[i][k];
+          double sum = 0.0;
+          for (int j = 0; j < N; ++j) sum += turned[i][j]*turned[k][j];
+          square[i][k] = square[k][i] = sum;
         }
       }
       diagonalize(square, vectors);
@@ -83,20 +92,37 @@ static void keep_to(const struct circumstances* at, const double goal[16], doubl
 /* The joints that bring the tool nearest to the goal in the directions that the arm has not lost, of position rather
    than of orientation; of both alike where that takes a joint farther than `far`. */
 static void approach(const struct circumstances* at, const double goal[16], double far,
-                     double q[N]) {
+                     const struct linearization* first, double q[N]) {
   double start[N];
   for (int i = 0; i < N; ++i) start[i] = q[i];
-  keep_to(at, goal, FIRST, q);
+  keep_to(at, goal, FIRST, first, q);
   if (largest_motion(q, start) <= far) return;
   for (int i = 0; i < N; ++i) q[i] = start[i];
-  keep_to(at, goal, LENGTH, q);
+  keep_to(at, goal, LENGTH, first, q);
 }
 
 )code";
 
 // Of fewer joints, as damped_least_squares() does it.
 constexpr const char* kApproachByFew =
-    R"code(/* What the nearest joints make least: errors, positions counting over FIRST, and CALM times the joints' motion. */
+    R"code(/* The derivatives of the pose `here` at joints q, by differences on both sides. */
+static void differentiate(const struct circumstances* at, const double q[N], const double here[16],
+                          double jacobian[6][N]) {
+  double there[16], moved[N], after[6], before[6];
+  for (int i = 0; i < N; ++i) moved[i] = q[i];
+  for (int k = 0; k < N; ++k) {
+    moved[k] = q[k] + STEP;
+    forward_at(at, moved, there);
+    pose_error(there, here, after);
+    moved[k] = q[k] - STEP;
+    forward_at(at, moved, there);
+    pose_error(there, here, before);
+    for (int i = 0; i < 6; ++i) jacobian[i][k] = 0.5*(after[i] - before[i])/STEP;
+    moved[k] = q[k];
+  }
+}
+
+/* What the nearest joints make least: errors, positions counting over FIRST, and CALM times the joints' motion. */
 static double cost_of(const double goal[16], const double pose[16], const double q[N], const double start[N],
                       double error[6]) {
   double cost = 0.0;
@@ -111,15 +137,16 @@ static double cost_of(const double goal[16], const double pose[16], const double
 
 /* The joints that bring the tool nearest to the goal, of position rather than of orientation: too few for both. */
 static void approach(const struct circumstances* at, const double goal[16], double far,
-                     double q[N]) {
+                     const struct linearization* first, double q[N]) {
   double jacobian[6][N], root[N][N], pose[16], error[6], step[N], start[N], tried[N];
   (void)far;
+  (void)first;
   for (int i = 0; i < N; ++i) start[i] = q[i];
   forward_at(at, q, pose);
   double cost = cost_of(goal, pose, q, start, error);
   for (int round = 0; round < 30; ++round) {
     double share = 1.0, lower = cost;
-    differentiate(forward_at, at, q, pose, 1, jacobian);
+    differentiate(at, q, pose, jacobian);
     for (int i = 0; i < 6; ++i)
       for (int k = 0; k < N; ++k) jacobian[i][k] /= i < 3 ? FIRST : LEVER;
     factorize(jacobian, CALM*CALM, root);
@@ -147,19 +174,17 @@ constexpr const char* kFunctions =
    than `most`; where there are none, near singular joints or beyond the arm's reach, the nearest that there are. */
 static double solve(const struct circumstances* at, const double goal[16], double freely, double most,
                     double q[N]) {
-  double start[N], pose[16], error[6], left;
+  struct linearization first;
+  double start[N], error[6];
   for (int i = 0; i < N; ++i) start[i] = q[i];
-  forward_at(at, start, pose);
-  pose_error(goal, pose, error);
-  const double far = GAIN*angle_of(error) + freely;
+  linearize_at(at, goal, start, &first);
+  const double far = GAIN*angle_of(first.error) + freely;
   if (far < most) most = far;
-  left = reach(at, goal, most, q);
+  const double left = reach(at, goal, most, &first, q);
   if (left < 1e-6 && largest_motion(q, start) <= most) return left;
   for (int i = 0; i < N; ++i) q[i] = start[i];
-  approach(at, goal, far, q);
-  forward_at(at, q, pose);
-  pose_error(goal, pose, error);
-  return norm_of(error);
+  approach(at, goal, far, &first, q);
+  return measure(at, goal, q, error);
 }
 
 /* Joints to command so that the calibrated tool stands at `goal` (row by row, as of forward): `q` holds joints nearby
@@ -167,10 +192,13 @@ static double solve(const struct circumstances* at, const double goal[16], doubl
    counted at a lever of a quarter of a metre: above 1e-6 the goal was not reached, and joints are those that bring the
    tool near to it without moving by more than 3 degrees and a few times the way there. */
 double inverse_at(const struct circumstances* at, const double goal[16], double q[N]) {
-  double again[N], left = solve(at, goal, NEARBY, 1e300, q);
+  struct linearization first;
+  double again[N];
+  const double left = solve(at, goal, NEARBY, 1e300, q);
   if (left < 1e-10 || left > 1e-4) return left;
   for (int i = 0; i < N; ++i) again[i] = q[i];
-  const double closer = reach(at, goal, NEARBY, again);
+  linearize_at(at, goal, q, &first);
+  const double closer = reach(at, goal, NEARBY, &first, again);
   if (!(closer < left && largest_motion(again, q) <= NEARBY)) return left;
   for (int i = 0; i < N; ++i) q[i] = again[i];
   return closer;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "symbolic/calculus.hpp"
+#include "symbolic/multiple_angles.hpp"
 #include "symbolic/printing.hpp"
 #include "symbolic/support_functions.hpp"
 
@@ -169,7 +170,7 @@ std::string CodeFile::c() {
     if (pose_uses("actual" + number))
       out << "  const double actual" << number << " = h" << number << "(q[" << index << "]);\n";
   }
-  const Steps steps = plan_steps(pose_, printer_);
+  const Steps steps = plan_steps_with_multiples(pose_, printer_);
   out << assignments(steps, "  const double ", ";\n");
   for (std::size_t i = 0; i < pose_.size(); ++i) out << "  pose[" << i << "] = " << steps.results[i] << ";\n";
   out << "}\n";

@@ -5,10 +5,8 @@
 namespace demecal::inline symbolic {
 namespace {
 
-// Newton's steps first with the described arm's Jacobian, which is cheap: a calibrated arm's differs from it by
-// thousandths, so that every step takes away all but thousandths of the error, but near singular postures, where its
-// own Jacobian takes over, damped so that steps stay within what joints may move. Turns weigh as a lever of LEVER
-// metres.
+// Newton's steps first, with the calibrated arm's own Jacobian; from where they take joints too far, near singular
+// postures, again and damped so that steps stay within what joints may move. Turns weigh as a lever of LEVER metres.
 constexpr const char* kReach =
     R"code(/* A turn of more than a right angle, which its sine does not tell: the angle times the axis, which the largest column
    of the turn's symmetric part shows, and `turn` (the sine times the axis) the side of. */
@@ -71,44 +69,46 @@ static double largest_motion(const double q[N], const double from[N]) {
   return largest;
 }
 
-/* The derivatives of an arm's pose `here` at joints q, by differences; `central`: on both sides. */
-static void differentiate(void (*arm)(const struct circumstances*, const double[N], double[16]),
-                          const struct circumstances* at, const double q[N], const double here[16], int central,
-                          double jacobian[6][N]) {
-  double there[16], moved[N], column[6], before[6];
-  for (int i = 0; i < N; ++i) moved[i] = q[i];
-  for (int k = 0; k < N; ++k) {
-    moved[k] = q[k] + STEP;
-    arm(at, moved, there);
-    pose_error(there, here, column);
-    for (int i = 0; i < 6; ++i) jacobian[i][k] = column[i]/STEP;
-    if (central) {
-      moved[k] = q[k] - STEP;
-      arm(at, moved, there);
-      pose_error(there, here, before);
-      for (int i = 0; i < 6; ++i) jacobian[i][k] = 0.5*(column[i] - before[i])/STEP;
-    }
-    moved[k] = q[k];
-  }
+/* How far the tool is from the goal at joints q, and what is missing. */
+static double measure(const struct circumstances* at, const double goal[16], const double q[N], double error[6]) {
+  double pose[16];
+  forward_at(at, q, pose);
+  pose_error(goal, pose, error);
+  return norm_of(error);
 }
 
-/* The lower triangle of a root of J'J + damping. */
+/* The same with the derivatives there. */
+struct linearization {
+  double left, error[6], jacobian[6][N];
+};
+
+static void linearize_at(const struct circumstances* at, const double goal[16], const double q[N],
+                         struct linearization* here) {
+  double pose[16];
+  linearize(at, q, pose, here->jacobian);
+  pose_error(goal, pose, here->error);
+  here->left = norm_of(here->error);
+}
+
+/* The lower triangle of a root of J'J + damping, with the inverses of its diagonal. */
 static void factorize(double jacobian[6][N], double damping, double root[N][N]) {
   double trace = 0.0;
   for (int r = 0; r < N; ++r) {
     for (int c = 0; c <= r; ++c) {
-      root[r][c] = 0.0;
-      for (int i = 0; i < 6; ++i) root[r][c] += jacobian[i][r]*jacobian[i][c];
+      double sum = 0.0;
+      for (int i = 0; i < 6; ++i) sum += jacobian[i][r]*jacobian[i][c];
+      root[r][c] = sum;
     }
     trace += root[r][r];
   }
-  for (int r = 0; r < N; ++r) root[r][r] += DAMPING*trace + damping;
   for (int c = 0; c < N; ++c) {
-    for (int k = 0; k < c; ++k) root[c][c] -= root[c][k]*root[c][k];
-    root[c][c] = sqrt(root[c][c] > 0.0 ? root[c][c] : DAMPING*trace);
+    double square = root[c][c] + DAMPING*trace + damping;
+    for (int k = 0; k < c; ++k) square -= root[c][k]*root[c][k];
+    root[c][c] = 1.0/sqrt(square > 0.0 ? square : DAMPING*trace);
     for (int r = c + 1; r < N; ++r) {
-      for (int k = 0; k < c; ++k) root[r][c] -= root[r][k]*root[c][k];
-      root[r][c] /= root[c][c];
+      double sum = root[r][c];
+      for (int k = 0; k < c; ++k) sum -= root[r][k]*root[c][k];
+      root[r][c] = sum*root[c][c];
     }
   }
 }
@@ -116,51 +116,60 @@ static void factorize(double jacobian[6][N], double damping, double root[N][N]) 
 /* The step from its `downhill`: by the root's both triangles, in place. */
 static void substitute(double root[N][N], double step[N]) {
   for (int r = 0; r < N; ++r) {
-    for (int k = 0; k < r; ++k) step[r] -= root[r][k]*step[k];
-    step[r] /= root[r][r];
+    double sum = step[r];
+    for (int k = 0; k < r; ++k) sum -= root[r][k]*step[k];
+    step[r] = sum*root[r][r];
   }
   for (int r = N - 1; r >= 0; --r) {
-    for (int k = r + 1; k < N; ++k) step[r] -= root[k][r]*step[k];
-    step[r] /= root[r][r];
+    double sum = step[r];
+    for (int k = r + 1; k < N; ++k) sum -= root[k][r]*step[k];
+    step[r] = sum*root[r][r];
   }
 }
 
-/* Newton's steps from q, while no joint is farther than `most` from where it was. */
-static double reach(const struct circumstances* at, const double goal[16], double most, double q[N]) {
-  double jacobian[6][N], root[N][N], pose[16], error[6], step[N], start[N], left = 0.0, before = 1e300;
-  for (int i = 0; i < N; ++i) start[i] = q[i];
-  for (int round = 0; round <= 32; ++round) {
-    double largest = 0.0;
-    if (round == 4 && !(largest_motion(q, start) <= most))
-      for (int i = 0; i < N; ++i) q[i] = start[i];
-    forward_at(at, q, pose);
-    pose_error(goal, pose, error);
-    left = norm_of(error);
-    if (left < 1e-10 || round == 32) break;
-    if (round > 4 && largest_motion(q, start) > 4.0*most) break;
-    if (round % 8 == 0) {
-      if (left > 0.9*before) break; /* beyond its reach */
-      before = left;
-    }
-    if (round == 0) {
-      double nominal[16];
-      nominal_forward(at, q, nominal);
-      differentiate(nominal_forward, at, q, nominal, 0, jacobian);
-      factorize(jacobian, 0.0, root);
-    } else if (round > 3 && round % 2 == 0) {
-      differentiate(forward_at, at, q, pose, 0, jacobian);
-      factorize(jacobian, 0.25*left*left/(most*most), root);
-    }
-    for (int r = 0; r < N; ++r) {
-      step[r] = 0.0;
-      for (int i = 0; i < 6; ++i) step[r] += jacobian[i][r]*error[i];
-    }
-    substitute(root, step);
-    for (int r = 0; r < N; ++r)
-      if (fabs(step[r]) > largest) largest = fabs(step[r]);
-    for (int r = 0; r < N; ++r) q[r] += largest > 0.1 ? 0.1/largest*step[r] : step[r];
+/* Moves joints by Newton's step, none by more than 0.1. */
+static void take_step(double jacobian[6][N], double root[N][N], const double error[6], double q[N]) {
+  double step[N], largest = 0.0;
+  for (int r = 0; r < N; ++r) {
+    step[r] = 0.0;
+    for (int i = 0; i < 6; ++i) step[r] += jacobian[i][r]*error[i];
   }
-  return left;
+  substitute(root, step);
+  for (int r = 0; r < N; ++r)
+    if (fabs(step[r]) > largest) largest = fabs(step[r]);
+  for (int r = 0; r < N; ++r) q[r] += largest > 0.1 ? 0.1/largest*step[r] : step[r];
+}
+
+/* Newton's steps from q, which `first` belongs to, while no joint is farther than `most` from where it was: in 5 plain
+   ones, or else damped. Behind a step from so near as CLOSE the derivatives are still right. */
+static double reach(const struct circumstances* at, const double goal[16], double most,
+                    const struct linearization* first, double q[N]) {
+  struct linearization here = *first;
+  double root[N][N], start[N], before = here.left;
+  int damped = 0, known = 0;
+  for (int i = 0; i < N; ++i) start[i] = q[i];
+  for (int round = 0; round < 32 && here.left >= 1e-10; ++round) {
+    if (!known) factorize(here.jacobian, damped ? 0.5*here.left*here.left/(most*most) : 0.0, root);
+    take_step(here.jacobian, root, here.error, q);
+    const double moved = largest_motion(q, start);
+    if (!damped && (round == 5 || !(moved <= most))) {
+      here = *first;
+      for (int i = 0; i < N; ++i) q[i] = start[i];
+      damped = 1;
+      known = 0;
+      round = 3;
+      continue;
+    }
+    if (moved > 2.0*most) return INFINITY;
+    known = here.left < CLOSE;
+    if (known) here.left = measure(at, goal, q, here.error);
+    else linearize_at(at, goal, q, &here);
+    if (damped && round % 4 == 3) {
+      if (here.left > 0.9*before) break; /* beyond its reach */
+      before = here.left;
+    }
+  }
+  return here.left;
 }
 
 )code";
@@ -168,7 +177,8 @@ static double reach(const struct circumstances* at, const double goal[16], doubl
 }  // namespace
 
 std::string inverse_constants_in_c() {
-  return "#define LEVER 0.25\n#define STEP 1e-5\n#define DAMPING 1e-13\n#define LENGTH 0.3\n#define FIRST 0.01\n"
+  return "#define LEVER 0.25\n#define STEP 1e-5\n#define CLOSE 1e-5\n#define DAMPING 1e-13\n#define LENGTH "
+         "0.3\n#define FIRST 0.01\n"
          "#define LOST 0.125\n#define GAIN 3.0\n#define CALM 0.02\n#define NEARBY 0.05\n\n";
 }
 

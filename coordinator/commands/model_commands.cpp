@@ -83,10 +83,10 @@ CorrectedRobot as_drawn(const Robot& robot) {
   return nominal_robot(none);
 }
 
-/// What is exported: the listing, and what of its inverse follows in C.
+/// What is exported: the listing, and the arm as described that its inverse in C corrects for.
 struct ExportedListing {
   Listing listing;
-  std::string inverse_in_c{};
+  std::optional<Listing> described{};
   std::optional<RadiusListing> radius{};
 };
 
@@ -98,7 +98,7 @@ ExportedListing listing_of_robot(Algebra& algebra, const ExportRequest& request,
   const Eigen::Isometry3d& identified = robot.tool(request.target);
   const Eigen::Isometry3d believed =
       request.target.empty() ? believed_tool(robot.described.chain.tool_m, identified) : identified;
-  return {listing_of(arm, robot, title, frame), inverse_in_c(described_listing(algebra, robot, believed))};
+  return {listing_of(arm, robot, title, frame), described_listing(algebra, robot, believed)};
 }
 
 /// Of the robot's own tool, of models that state how sure they are.
@@ -162,21 +162,22 @@ ExitCode run_links(const ExportRequest& request) {
 ExitCode run_export(const ExportRequest& request) {
   if (!code_languages().contains(request.format)) return run_links(request);
   Algebra algebra;
-  auto [listing, inverse, radius] = listing_asked(algebra, request);
+  auto [listing, described, radius] = listing_asked(algebra, request);
   if (request.derivative > static_cast<int>(listing.actual.size())) {
     throw InputError({request.file, 0}, std::to_string(request.derivative),
                      "is no joint of this arm, which has " + std::to_string(listing.actual.size()));
   }
   if (request.derivative > 0) listing = derivative(listing, request.derivative);
   const CodeLanguage language = code_languages().at(request.format);
-  const bool with_inverse = language == CodeLanguage::c && request.derivative == 0;
+  const bool with_inverse = described && language == CodeLanguage::c && request.derivative == 0;
   std::string text_of_radius;
   if (radius && request.derivative == 0) text_of_radius = radius_code(*radius, listing, language);
   if (!text_of_radius.empty()) {
     listing.also = radius->expressions();
     listing.with_radius = true;
   }
-  write_or_print(request, code_of(listing, language) + (with_inverse ? inverse : "") + text_of_radius);
+  const std::string text = code_of(listing, language);
+  write_or_print(request, text + (with_inverse ? inverse_in_c(listing, *described) : "") + text_of_radius);
   return ExitCode::done;
 }
 

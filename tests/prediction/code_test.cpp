@@ -151,8 +151,9 @@ TEST(Code, InCInvertsTheModel) {
     main << "};\nint main(void) {\n  for (int i = 0; i < " << kStops << "; ++i) {\n    double command[" << n
          << "];\n    printf(\"%.17g\", corrected_at(at + i, stops[i], command));\n    for (int k = 0; k < " << n
          << "; ++k) printf(\" %.17g\", command[k]);\n    printf(\"\\n\");\n  }\n  return 0;\n}\n";
+    const Listing listing = listing_of(corrected_arm(algebra, robot, ""), robot, "An arm");
     const std::string code =
-        code_in(robot, CodeLanguage::c) + inverse_in_c(described_listing(algebra, robot, robot.tool("")));
+        code_of(listing, CodeLanguage::c) + inverse_in_c(listing, described_listing(algebra, robot, robot.tool("")));
     const CodeFolder folder;
     const std::string program = folder.path("inverse");
     int failed = 0;

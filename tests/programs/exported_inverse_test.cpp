@@ -15,6 +15,14 @@
 namespace demecal {
 namespace {
 
+/// The code with a count `evaluated` of the poses that are compared with a goal.
+std::string with_count(std::string code) {
+  const std::string first = "cosine = -0.5;\n";
+  const std::size_t body = code.find(first);
+  EXPECT_NE(body, std::string::npos);
+  return "static long evaluated;\n" + code.insert(body + first.size(), "  ++evaluated;\n");
+}
+
 /// The joints that the exported `corrected` commands, and what it says is left.
 struct ExportedCommand {
   double left = 0.0;
@@ -44,8 +52,9 @@ std::vector<ExportedCommand> exported_commands(const CorrectedRobot& robot, cons
                                                const std::string& call = "corrected(stops[i], command)") {
   Algebra algebra;
   std::ostringstream code;
-  code << code_of(listing_of(corrected_arm(algebra, robot, ""), robot, "An arm"), CodeLanguage::c)
-       << inverse_in_c(described_listing(algebra, robot, robot.tool(""))) << "#include <stdio.h>\n"
+  const Listing listing = listing_of(corrected_arm(algebra, robot, ""), robot, "An arm");
+  code << code_of(listing, CodeLanguage::c) << inverse_in_c(listing, described_listing(algebra, robot, robot.tool("")))
+       << "#include <stdio.h>\n"
        << kHalfTurned << "int main(void) {\n"
        << "  static const double stops[][N] = {";
   for (const JointVector& stop : stops) code << '{' << joints_listed(stop) << "},\n";
@@ -56,7 +65,7 @@ std::vector<ExportedCommand> exported_commands(const CorrectedRobot& robot, cons
   const std::string program = folder.path("commands");
   int failed = 0;
   const std::string said = output_of("cc -std=c99 -O1 -Wall -Wextra -Wno-missing-prototypes -Werror -o " + program +
-                                         ' ' + folder.write("arm.c", code.str()) + " -lm",
+                                         ' ' + folder.write("arm.c", with_count(code.str())) + " -lm",
                                      failed);
   EXPECT_EQ(failed, 0) << said;
   std::istringstream printed(output_of(program, failed));
@@ -125,6 +134,18 @@ TEST(ExportedInverse, OfArmsWithOtherNumbersOfJointsIsAsPrograms) {
     }
     EXPECT_GE(same, 90) << joints << " joints";
   }
+}
+
+TEST(ExportedInverse, TakesFewEvaluationsWhereTheArmIsRegular) {
+  if (!there_is("cc")) GTEST_SKIP() << "there is no C compiler called cc";
+  RandomStream stream{7565};
+  const Robot nominal = elbow_arm(stream);
+  const CorrectedRobot robot = erring(stream, nominal);
+  std::vector<JointVector> stops;
+  for (int i = 0; i < 200; ++i) stops.push_back(regular_joints(stream, nominal.chain));
+  const std::string call = "corrected(stops[i], command) < 1e-9 ? (double)evaluated : 1e300";
+  const std::vector<ExportedCommand> commands = exported_commands(robot, stops, call);
+  for (const ExportedCommand& one : commands) EXPECT_LT(one.left, 5.0 * static_cast<double>(stops.size()));
 }
 
 TEST(ExportedInverse, ReachesNothingHalfTurned) {

@@ -105,8 +105,10 @@ int main(int argc, char** argv) {
     RandomStream random{911};
     const CorrectedRobot arm = calibrated(robot, random);
     Algebra algebra;
-    const std::string code = code_of(listing_of(corrected_arm(algebra, arm, ""), arm, robot.name), CodeLanguage::c) +
-                             inverse_in_c(described_listing(algebra, arm, arm.tool(""))) + driver(robot.chain, poses);
+    const Listing listing = listing_of(corrected_arm(algebra, arm, ""), arm, robot.name);
+    const std::string code = code_of(listing, CodeLanguage::c) +
+                             inverse_in_c(listing, described_listing(algebra, arm, arm.tool(""))) +
+                             driver(robot.chain, poses);
     const std::string program = (folder / "inverse").string();
     std::ofstream(program + ".c") << code;
     if (std::system(fmt::format("cc -std=c99 -O2 -o {0} {0}.c -lm && {0} > {0}.txt", program).c_str()) != 0) return 21;
