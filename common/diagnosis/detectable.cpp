@@ -102,7 +102,7 @@ void set_validation_ratios(std::vector<DetectableCandidate>& candidates, const F
     RowMatrix left(validation.rows(), together);
     for (std::size_t i = begin; i < end; ++i)
       left.middleCols(spans[i].first - spans[begin].first, spans[i].count) = columns.dense(validation, i);
-    left.noalias() -= beyond.validation_basis() * scan.along().middleRows(spans[begin].first, together).transpose();
+    left -= product(beyond.validation_basis(), scan.along().middleRows(spans[begin].first, together).transpose());
     for (std::size_t i = begin; i < end; ++i) {
       double seen = 0.0;
       for (Eigen::Index k = 0; k < spans[i].count; ++k)

@@ -129,7 +129,8 @@ class Tiles {
 };
 
 /// The sum over all rows, in parts of kRowsOfPiece.
-Tiles summed_products(const RowsOf& left, const RowsOf& right, bool lower) {
+template <typename Left>
+Tiles summed_products(const Left& left, const RowsOf& right, bool lower) {
   DEMECAL_CHECK(left.rows() == right.rows(), left.rows() << " rows and " << right.rows());
   const Eigen::Index parts = tiles_for(left.rows(), kRowsOfPiece);
   std::vector<Tiles> sums(static_cast<std::size_t>(parts));
@@ -154,6 +155,12 @@ Tiles summed_products(const RowsOf& left, const RowsOf& right, bool lower) {
 }  // namespace
 
 Eigen::MatrixXd transposed_product(const RowsOf& left, const RowsOf& right) {
+  const Tiles sums = summed_products(left, right, false);
+  return Eigen::MatrixXd::NullaryExpr(left.cols(), right.cols(),
+                                      [&](Eigen::Index i, Eigen::Index k) { return sums(i, k); });
+}
+
+Eigen::MatrixXd transposed_product_of_columns(const Eigen::Ref<const Eigen::MatrixXd>& left, const RowsOf& right) {
   const Tiles sums = summed_products(left, right, false);
   return Eigen::MatrixXd::NullaryExpr(left.cols(), right.cols(),
                                       [&](Eigen::Index i, Eigen::Index k) { return sums(i, k); });

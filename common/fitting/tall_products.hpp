@@ -14,6 +14,8 @@ using RowsOf = Eigen::Ref<const RowMatrix, 0, Eigen::OuterStride<>>;
 
 /// left^T right, of as many rows: left's columns x right's columns.
 Eigen::MatrixXd transposed_product(const RowsOf& left, const RowsOf& right);
+/// The same where left is stored column after column.
+Eigen::MatrixXd transposed_product_of_columns(const Eigen::Ref<const Eigen::MatrixXd>& left, const RowsOf& right);
 /// rows^T rows.
 Eigen::MatrixXd square_product(const RowsOf& rows);
 /// left factors, where left has as many columns as `factors` has rows.

@@ -108,9 +108,18 @@ void EffectColumns::pack() {
 
 Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
   DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
+  constexpr Eigen::Index kFew = 4;  // for which it takes longer to rearrange the features than to read them
   std::vector<Eigen::MatrixXd> parts(blocks_.size());
   in_pieces(parts.size(), [&](std::size_t i) {
-    parts[i] = blocks_[i].features.transpose() * along_motion(field, blocks_[i].motion, rows);
+    const Eigen::MatrixXd& features = blocks_[i].features;
+    const RowMatrix along = along_motion(field, blocks_[i].motion, rows);
+    if (along.cols() > kFew) {
+      parts[i] = transposed_product_of_columns(features, along);
+      return;
+    }
+    parts[i].resize(features.cols(), along.cols());
+    for (Eigen::Index k = 0; k < along.cols(); ++k)
+      parts[i].col(k) = features.transpose() * Eigen::VectorXd(along.col(k));
   });
   return summed(blocks_, parts, columns_, rows.cols());
 }

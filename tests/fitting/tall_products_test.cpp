@@ -53,6 +53,7 @@ TEST(TallProducts, AreSummedInOneOrderOnEveryMachine) {
     for (const Eigen::Index columns : {1, 6, 7, 13}) {
       const RowMatrix left = drawn(rows, columns, random), right = drawn(rows, columns + 2, random);
       EXPECT_EQ(transposed_product(left, right), summed(left, right)) << rows << " x " << columns;
+      EXPECT_EQ(transposed_product_of_columns(left, right), summed(left, right)) << rows << " x " << columns;
       EXPECT_EQ(square_product(left), summed(left, left)) << rows << " x " << columns;
     }
   }
