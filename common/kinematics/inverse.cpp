@@ -28,20 +28,12 @@ NewtonStep newton_step(const Jacobian& jacobian, const PoseError& error, const I
   scaled.topRows<3>() /= options.length_m;
   scaled.leftCols(options.held).setZero();
   scaled_error.head<3>() /= options.length_m;
-  // Squares of the singular values have half their digits, which are to spare: what is nearly lost is damped, and the
-  // next step mends what this one missed.
-  const bool fewer_joints = scaled.cols() < scaled.rows();
-  const auto squares = eigen_system(fewer_joints ? Eigen::MatrixXd(scaled.transpose() * scaled)
-                                                 : Eigen::MatrixXd(scaled * scaled.transpose()));
-  const double smallest = std::sqrt(std::max(squares.values[0], 0.0));
+  const SingularSystem svd = singular_system(scaled, Eigen::ComputeThinU | Eigen::ComputeThinV);
+  const Eigen::VectorXd& values = svd.values;
+  const double smallest = values[values.size() - 1];
   const double damping = std::min(std::max(0.0, options.singular_below - smallest), scaled_error.norm());
-  const Eigen::ArrayXd divisors = (squares.values.array().max(0.0) + damping * damping).max(1e-300);
-  const auto divided = [&](const Eigen::VectorXd& of) -> Eigen::VectorXd {
-    return squares.vectors * ((squares.vectors.transpose() * of).array() / divisors).matrix();
-  };
-  NewtonStep step{fewer_joints ? divided(scaled.transpose() * scaled_error)
-                               : Eigen::VectorXd(scaled.transpose() * divided(scaled_error)),
-                  smallest};
+  const Eigen::VectorXd gains = values.array() / (values.array().square() + damping * damping).max(1e-300);
+  NewtonStep step{svd.v * gains.asDiagonal() * svd.u.transpose() * scaled_error, smallest};
   step.dq.head(options.held).setZero();
   return step;
 }

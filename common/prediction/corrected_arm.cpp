@@ -121,8 +121,8 @@ Expression rate_of(Expression driven, Expression corrected, int joint) {
   return rate;
 }
 
-std::vector<JointAxis> axes_of(const Chain& chain, const PosedArm& posed, const CorrectedArm& arm) {
-  std::vector<JointAxis> axes;
+std::vector<MovingAxis> axes_of(const Chain& chain, const PosedArm& posed, const CorrectedArm& arm) {
+  std::vector<MovingAxis> axes;
   for (std::size_t i = 0; i < arm.driven.size(); ++i) {
     const SymbolicVector& z = posed.turned[i].axes[2];
     const SymbolicVector& next = i + 1 < arm.driven.size() ? posed.turned[i + 1].origin : posed.tool.origin;

@@ -32,7 +32,7 @@ struct CorrectedArm {
   std::vector<Expression> driven{};         ///< where couplings and effects turn the joints
   std::vector<SymbolicMotion> places{};     ///< how effects move the places of the arm
   std::vector<SymbolicEffectUnit> units{};  ///< what these motions are made of
-  std::vector<JointAxis> axes{};            ///< where `pose` has them
+  std::vector<MovingAxis> axes{};           ///< where `pose` has them
 };
 
 /// The model's prediction at any stop, of which neither the time nor the drives' torques are known: circumstances are

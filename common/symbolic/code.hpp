@@ -15,7 +15,7 @@
 namespace demecal::inline symbolic {
 
 /// The axis of a joint as it stands, from which the Jacobian follows; directions and lengths in the frame of the pose.
-struct JointAxis {
+struct MovingAxis {
   bool turns = true;  ///< else it slides
   std::array<Expression, 3> direction;
   std::array<Expression, 3> to_next;  ///< from a point on it to one on the next joint's axis, of the last to the tool
@@ -34,7 +34,7 @@ struct Listing {
   /// which are then arguments of `forward`; 0 where they are left out.
   std::optional<double> reference_celsius{};
   std::vector<Expression> also{};  ///< of code that follows: its formulas are written with the listing's
-  std::vector<JointAxis> axes{};   ///< what inverse_in_c() differentiates by: of every joint, or nothing
+  std::vector<MovingAxis> axes{};  ///< what inverse_in_c() differentiates by: of every joint, or nothing
   bool with_radius = false;        ///< radius_code() follows: in MATLAB a further output of `forward` calls it
 };
 

@@ -87,7 +87,7 @@ std::string ArmFunctions::nominal_forward() {
 
 std::string ArmFunctions::linearize() {
   const std::size_t n = arm_.axes.size();
-  for (const JointAxis& axis : arm_.axes) {
+  for (const MovingAxis& axis : arm_.axes) {
     all_.insert(all_.end(), axis.direction.begin(), axis.direction.end());
     all_.insert(all_.end(), axis.to_next.begin(), axis.to_next.end());
     all_.push_back(axis.rate);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostMultiple = 1000.0;  // beyond it steps cost what a call does, and are off by 1e-13
 
-bool is_wave(const ExpressionNode& term) {
+bool is_sine_or_cosine(const ExpressionNode& term) {
   return term.kind == ExpressionKind::function &&
          (term.function == Function::sine || term.function == Function::cosine);
 }
@@ -74,14 +74,14 @@ class WaveNames {
     std::map<std::uint32_t, std::set<int>> times;
     std::vector<Expression> angles;
     for (const Expression term : terms_of(expressions)) {
-      if (!is_wave(*term)) continue;
+      if (!is_sine_or_cosine(*term)) continue;
       const Multiple multiple = multiple_of(term->parts[0].first);
       if (times[multiple.angle->id].empty()) angles.push_back(multiple.angle);
       times[multiple.angle->id].insert(multiple.times);
     }
     for (const Expression angle : angles) {
       const auto terms = terms_of({&angle, 1});
-      const bool nested = std::ranges::any_of(terms, [](Expression term) { return is_wave(*term); });
+      const bool nested = std::ranges::any_of(terms, [](Expression term) { return is_sine_or_cosine(*term); });
       if (nested || times[angle->id].size() < 2) continue;
       std::string name = angle->name;
       if (angle->kind != ExpressionKind::symbol) {
@@ -103,7 +103,7 @@ class WaveNames {
  private:
   Expression written(Expression expression) {
     Algebra& algebra = expression.algebra();
-    if (is_wave(*expression)) {
+    if (is_sine_or_cosine(*expression)) {
       const Multiple multiple = multiple_of(expression->parts[0].first);
       const auto found = steps_of_.find(multiple.angle->id);
       if (found != steps_of_.end())
