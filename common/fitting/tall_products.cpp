@@ -152,18 +152,21 @@ Tiles summed_products(const Left& left, const RowsOf& right, bool lower) {
   return all;
 }
 
-}  // namespace
-
-Eigen::MatrixXd transposed_product(const RowsOf& left, const RowsOf& right) {
+template <typename Left>
+Eigen::MatrixXd whole_product(const Left& left, const RowsOf& right) {
   const Tiles sums = summed_products(left, right, false);
   return Eigen::MatrixXd::NullaryExpr(left.cols(), right.cols(),
                                       [&](Eigen::Index i, Eigen::Index k) { return sums(i, k); });
 }
 
+}  // namespace
+
+Eigen::MatrixXd transposed_product(const RowsOf& left, const RowsOf& right) {
+  return whole_product(left, right);
+}
+
 Eigen::MatrixXd transposed_product_of_columns(const Eigen::Ref<const Eigen::MatrixXd>& left, const RowsOf& right) {
-  const Tiles sums = summed_products(left, right, false);
-  return Eigen::MatrixXd::NullaryExpr(left.cols(), right.cols(),
-                                      [&](Eigen::Index i, Eigen::Index k) { return sums(i, k); });
+  return whole_product(left, right);
 }
 
 Eigen::MatrixXd square_product(const RowsOf& rows) {

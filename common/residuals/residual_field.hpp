@@ -92,7 +92,7 @@ ResidualField residual_field(const DataSet& data, std::span<const std::size_t> p
 
 using RowMatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// An effect, and where its features are wanted: what has to live as long.
+/// An effect and the states at which its features are wanted; both have to outlive it.
 struct SampledEffect {
   const Effect& effect;
   const std::vector<ArmState>& states;

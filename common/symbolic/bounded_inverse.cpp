@@ -20,7 +20,7 @@ static void diagonalize(double matrix[6][6], double vectors[6][6]) {
     if (!(off > least)) break;
     for (int p = 0; p < 5; ++p) {
       for (int r = p + 1; r < 6; ++r) {
-        if (matrix[p][r]*matrix[p][r] <= least/15.0) continue; /* of 15 */
+        if (matrix[p][r]*matrix[p][r] <= least/15.0) continue; /* one of 15 */
         const double ratio = 0.5*(matrix[r][r] - matrix[p][p])/matrix[p][r];
         const double t = (ratio < 0.0 ? -1.0 : 1.0)/(fabs(ratio) + sqrt(ratio*ratio + 1.0));
         const double c = 1.0/sqrt(t*t + 1.0), s = t*c;
