@@ -144,8 +144,8 @@ InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& targ
   const double smallest_singular = step.smallest_singular;
   for (int iteration = 0; iteration < options.max_iterations && !within_tolerance(iterate.error, options);
        ++iteration) {
+    if (iteration > 0) step = newton_step(iterate.reached.jacobian, iterate.error, options);
     if (!newton_advance(step.dq, model, target, options, iterate)) break;
-    step = newton_step(iterate.reached.jacobian, iterate.error, options);
   }
   const bool singular = smallest_singular < options.singular_below;
   const InverseStatus status = within_tolerance(iterate.error, options)          ? InverseStatus::converged

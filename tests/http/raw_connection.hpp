@@ -38,6 +38,11 @@ class RawConnection {
   }
   /// Whether bytes are taken: no more are once the other end has closed.
   bool sends(const std::string& bytes) const { return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) > 0; }
+  /// Whether something came that was not read yet.
+  bool is_answered() const {
+    char letter = 0;
+    return ::recv(socket_, &letter, 1, MSG_PEEK | MSG_DONTWAIT) == 1;
+  }
   /// All that comes until the other end closes.
   std::string all() const {
     std::string text;

@@ -37,7 +37,7 @@ std::vector<Tried> try_schedules(const SmallJob& job, std::uint64_t count) {
 
 TEST(Faults, OfThirtyTwoSchedulesLeaveTheSameModel) {
   constexpr std::uint64_t kSchedules = 32;
-  const SmallJob job(600);
+  const SmallJob job(400);
   ASSERT_EQ(run("demecal", {"calibrate", job.job(), "--out", job.path("calm"), "--workers", "2", "--domain",
                             private_domain(), "--max-effects", "0"})
                 .code,
