@@ -47,9 +47,17 @@ double FittedSet::saved_nats(double share) const {
 }
 
 Eigen::VectorXd FittedSet::moments_left() const {
+  return moments_left({{0, problem_->moment.size()}});
+}
+
+Eigen::VectorXd FittedSet::moments_left(const std::vector<ColumnSpan>& spans) const {
   Eigen::VectorXd left = problem_->moment;
-  for (std::size_t i = 0; i < columns_.size(); ++i)
-    left -= coefficients_[static_cast<Eigen::Index>(i)] * problem_->gram.col(columns_[i]);
+  for (std::size_t i = 0; i < columns_.size(); ++i) {
+    const double coefficient = coefficients_[static_cast<Eigen::Index>(i)];
+    for (const ColumnSpan& span : spans)
+      left.segment(span.first, span.count) -=
+          coefficient * problem_->gram.col(columns_[i]).segment(span.first, span.count);
+  }
   return left;
 }
 
@@ -62,6 +70,7 @@ std::pair<Eigen::Index, Eigen::Index> FittedSet::span_at(std::size_t place) cons
 double FittedSet::rise_without(std::size_t place) const {
   const auto [first, count] = span_at(place);
   if (count == 0) return 0.0;
+  if (count == 1) return coefficients_[first] * coefficients_[first] / inverse_(first, first);
   const Eigen::VectorXd own = coefficients_.segment(first, count);
   const Eigen::MatrixXd inverse = inverse_.block(first, first, count, count);
   return own.dot(Cholesky(inverse).solve(own));
@@ -69,6 +78,18 @@ double FittedSet::rise_without(std::size_t place) const {
 
 double FittedSet::gain_without(std::size_t place) const {
   return price_nats(effects_[place]) - saved_nats(1.0 + rise_without(place) / squares_);
+}
+
+std::optional<std::size_t> FittedSet::least_worth() const {
+  std::optional<std::size_t> least;
+  double most = 0.0;
+  for (std::size_t place = 0; place < effects_.size(); ++place) {
+    const double gain = gain_without(place);
+    if (gain <= most) continue;
+    most = gain;
+    least = place;
+  }
+  return least;
 }
 
 std::vector<Alike> FittedSet::alike(std::size_t place) const {
@@ -102,31 +123,60 @@ std::vector<Alike> FittedSet::alike(std::size_t place) const {
   return all;
 }
 
+FittedSet::Beside FittedSet::beside(const ColumnSpan& span) const {
+  const auto held = static_cast<Eigen::Index>(columns_.size());
+  Beside beside{Eigen::MatrixXd(held, span.count), Eigen::MatrixXd(span.count, span.count), {}, 0.0};
+  Eigen::MatrixXd products(held, span.count);
+  for (Eigen::Index k = 0; k < span.count; ++k) {
+    const auto column = problem_->gram.col(span.first + k);
+    for (Eigen::Index i = 0; i < held; ++i) products(i, k) = column[columns_[static_cast<std::size_t>(i)]];
+    beside.explained.col(k).noalias() = inverse_ * products.col(k);
+  }
+  Eigen::VectorXd left = problem_->moment.segment(span.first, span.count);
+  Eigen::MatrixXd fresh = problem_->gram.block(span.first, span.first, span.count, span.count);
+  for (Eigen::Index k = 0; k < span.count; ++k) {
+    left[k] -= products.col(k).dot(coefficients_);
+    for (Eigen::Index l = 0; l < span.count; ++l) fresh(l, k) -= products.col(l).dot(beside.explained.col(k));
+  }
+  beside.fresh_inverse = Cholesky(fresh).inverse();
+  beside.coefficients = beside.fresh_inverse * left;
+  beside.drop = left.dot(beside.coefficients);
+  return beside;
+}
+
 void FittedSet::add(std::size_t effect) {
+  add(effect, beside(problem_->spans[effect]));
+}
+
+bool FittedSet::add_if_shorter(std::size_t effect) {
+  const Beside own = beside(problem_->spans[effect]);
+  const double nats = saved_nats((squares_ - own.drop) / problem_->squares) + (price_ + price_nats(effect));
+  if (nats >= description_nats()) return false;
+  add(effect, own);
+  return true;
+}
+
+void FittedSet::add(std::size_t effect, const Beside& beside) {
   const ColumnSpan& span = problem_->spans[effect];
   effects_.push_back(effect);
   price_ += price_nats(effect);
   if (span.count == 0) return;
   const auto held = static_cast<Eigen::Index>(columns_.size());
-  Eigen::MatrixXd beside(held, span.count);
-  for (Eigen::Index i = 0; i < held; ++i)
-    beside.row(i) = problem_->gram.block(columns_[static_cast<std::size_t>(i)], span.first, 1, span.count);
-  const Eigen::MatrixXd explained = inverse_ * beside;
-  const Eigen::MatrixXd fresh =
-      problem_->gram.block(span.first, span.first, span.count, span.count) - beside.transpose() * explained;
-  const Eigen::MatrixXd fresh_inverse = Cholesky(fresh).inverse();
-  const Eigen::VectorXd left = problem_->moment.segment(span.first, span.count) - beside.transpose() * coefficients_;
-  const Eigen::VectorXd own = fresh_inverse * left;
-  const Eigen::MatrixXd turned = explained * fresh_inverse;
-  inverse_ += turned * explained.transpose();
-  inverse_.conservativeResize(held + span.count, held + span.count);
-  inverse_.topRightCorner(held, span.count) = -turned;
-  inverse_.bottomLeftCorner(span.count, held) = -turned.transpose();
-  inverse_.bottomRightCorner(span.count, span.count) = fresh_inverse;
-  coefficients_ -= explained * own;
+  Eigen::MatrixXd inverse(held + span.count, held + span.count);
+  inverse.topLeftCorner(held, held) = inverse_;
+  Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(held, span.count);
+  for (Eigen::Index k = 0; k < span.count; ++k) {
+    for (Eigen::Index l = 0; l < span.count; ++l) turned.col(k) += beside.explained.col(l) * beside.fresh_inverse(l, k);
+    for (Eigen::Index i = 0; i < held; ++i) inverse.col(i).head(held) += turned.col(k) * beside.explained(i, k);
+    coefficients_ -= beside.explained.col(k) * beside.coefficients[k];
+  }
+  inverse.topRightCorner(held, span.count) = -turned;
+  inverse.bottomLeftCorner(span.count, held) = -turned.transpose();
+  inverse.bottomRightCorner(span.count, span.count) = beside.fresh_inverse;
+  inverse_ = std::move(inverse);
   coefficients_.conservativeResize(held + span.count);
-  coefficients_.tail(span.count) = own;
-  squares_ -= left.dot(own);
+  coefficients_.tail(span.count) = beside.coefficients;
+  squares_ -= beside.drop;
   for (Eigen::Index k = 0; k < span.count; ++k) columns_.push_back(span.first + k);
 }
 
@@ -135,21 +185,29 @@ void FittedSet::remove(std::size_t place) {
   price_ -= price_nats(effects_[place]);
   effects_.erase(effects_.begin() + static_cast<std::ptrdiff_t>(place));
   if (count == 0) return;
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < inverse_.rows(); ++i)
-    if (i < first || i >= first + count) kept.push_back(i);
+  const Eigen::Index after = inverse_.rows() - first - count;
   const Cholesky own(inverse_.block(first, first, count, count));
-  const Eigen::VectorXd weighted = own.solve(coefficients_.segment(first, count));
-  squares_ += coefficients_.segment(first, count).dot(weighted);
+  const Eigen::VectorXd coefficients = coefficients_.segment(first, count), weighted = own.solve(coefficients);
+  squares_ += coefficients.dot(weighted);
   columns_.erase(columns_.begin() + first, columns_.begin() + first + count);
-  if (kept.empty()) {
-    coefficients_.resize(0);
-    inverse_.resize(0, 0);
-    return;
+  // Of a matrix or vector over the columns: without the rows of those that go.
+  const auto without = [first = first, count = count, after](const auto& rows) {
+    Eigen::MatrixXd left(first + after, rows.cols());
+    left.topRows(first) = rows.topRows(first);
+    left.bottomRows(after) = rows.bottomRows(after);
+    return left;
+  };
+  const Eigen::MatrixXd beside = without(inverse_.middleCols(first, count)), turned = own.solve(beside.transpose());
+  Eigen::MatrixXd inverse(first + after, first + after);
+  for (Eigen::Index i = 0; i < inverse.cols(); ++i) {
+    const auto present = inverse_.col(i < first ? i : i + count);
+    inverse.col(i).head(first) = present.head(first);
+    inverse.col(i).tail(after) = present.tail(after);
+    for (Eigen::Index k = 0; k < count; ++k) inverse.col(i) -= beside.col(k) * turned(k, i);
   }
-  const Eigen::MatrixXd beside = inverse_.middleCols(first, count)(kept, Eigen::all);
-  coefficients_ = (coefficients_(kept) - beside * weighted).eval();
-  inverse_ = (inverse_(kept, kept) - beside * own.solve(beside.transpose())).eval();
+  inverse_ = std::move(inverse);
+  coefficients_ = without(coefficients_);
+  for (Eigen::Index k = 0; k < count; ++k) coefficients_ -= beside.col(k) * weighted[k];
 }
 
 void FittedSet::remove_cause(std::size_t cause) {

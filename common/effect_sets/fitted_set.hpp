@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,8 +63,12 @@ class FittedSet {
 
   /// X^T of what the set leaves of the residual.
   Eigen::VectorXd moments_left() const;
+  /// The same in `spans` of the columns alone; elsewhere the numbers say nothing.
+  Eigen::VectorXd moments_left(const std::vector<ColumnSpan>& spans) const;
   /// By how much the description grows shorter without the effect at this place of effects().
   double gain_without(std::size_t place) const;
+  /// The place of the effect without which it grows shortest; nothing where it grows shorter without none.
+  std::optional<std::size_t> least_worth() const;
   /// By how much the sum of squares rises without it.
   double rise_without(std::size_t place) const;
 
@@ -71,10 +76,21 @@ class FittedSet {
   std::vector<Alike> alike(std::size_t place) const;
 
   void add(std::size_t effect);
+  /// Adds the effect where the description grows shorter by it; whether it does.
+  bool add_if_shorter(std::size_t effect);
   void remove(std::size_t place);
   void remove_cause(std::size_t cause);
 
  private:
+  /// What an effect's columns are beside those of the set.
+  struct Beside {
+    Eigen::MatrixXd explained;      ///< columns x count: their least-squares values by the set's columns
+    Eigen::MatrixXd fresh_inverse;  ///< of the gram matrix of what is not explained
+    Eigen::VectorXd coefficients;
+    double drop = 0.0;  ///< of the sum of squares
+  };
+  Beside beside(const ColumnSpan& span) const;
+  void add(std::size_t effect, const Beside& beside);
   double saved_nats(double share) const;
   std::pair<Eigen::Index, Eigen::Index> span_at(std::size_t place) const;
 

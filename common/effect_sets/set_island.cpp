@@ -25,6 +25,7 @@ std::uint64_t number_in_ring(IslandKey key) {
 SetIsland::SetIsland(const ExplanationProblem& problem, const SetSearch& search, IslandKey key)
     : problem_(problem), search_(search), key_(key), random_(own_stream()) {
   const FittedSet first(problem, search.known);
+  for (std::size_t i = 0; i < problem.spans.size(); ++i) prices_nats_.push_back(first.price_nats(i));
   most_columns_ = std::max(first.columns(), static_cast<Eigen::Index>(search.search.most_freedom * problem.freedom));
   search_.search.most_causes = std::max(search.search.most_causes, first.causes().size());
   search_.search.most_effects = std::max(search.search.most_effects, search.known.size());
@@ -62,14 +63,25 @@ const FittedSet& SetIsland::any_kept() {
 
 std::vector<std::size_t> SetIsland::promising(const FittedSet& set, bool of_its_causes) const {
   const std::vector<std::size_t> causes = set.causes();
-  const Eigen::VectorXd left = set.moments_left();
-  std::vector<std::pair<double, std::size_t>> gains;
+  std::vector<std::size_t> choice;
+  std::vector<ColumnSpan> columns;  // of the choice
   for (std::size_t i = 0; i < problem_.spans.size(); ++i) {
     const ColumnSpan& span = problem_.spans[i];
-    if (span.count == 0 || set.holds(i)) continue;
-    if (of_its_causes && !std::ranges::binary_search(causes, problem_.cause[i])) continue;
+    if (span.count == 0 || (of_its_causes && !std::ranges::binary_search(causes, problem_.cause[i]))) continue;
+    choice.push_back(i);
+    if (columns.empty() || columns.back().first + columns.back().count != span.first)
+      columns.push_back({span.first, 0});
+    columns.back().count += span.count;
+  }
+  std::vector<bool> held(problem_.spans.size());
+  for (const std::size_t effect : set.effects()) held[effect] = true;
+  const Eigen::VectorXd left = set.moments_left(columns);
+  std::vector<std::pair<double, std::size_t>> gains;
+  for (const std::size_t i : choice) {
+    if (held[i]) continue;
+    const ColumnSpan& span = problem_.spans[i];
     const double share = std::min(left.segment(span.first, span.count).squaredNorm() / set.squares(), 0.99);
-    gains.emplace_back(-0.5 * problem_.rows * protected_logarithm(1.0 - share) - set.price_nats(i), i);
+    gains.emplace_back(-0.5 * problem_.rows * protected_logarithm(1.0 - share) - prices_nats_[i], i);
   }
   const auto most = static_cast<std::ptrdiff_t>(std::min(kPromising, gains.size()));
   std::partial_sort(gains.begin(), gains.begin() + most, gains.end(), std::greater{});
@@ -118,30 +130,11 @@ FittedSet SetIsland::mixed(const FittedSet& one, const FittedSet& other) {
   return {problem_, std::move(both)};
 }
 
-void SetIsland::leave_out_what_earns_nothing(FittedSet& set) const {
-  for (;;) {
-    std::optional<std::size_t> worst;
-    double most = 0.0;
-    for (std::size_t place = 0; place < set.effects().size(); ++place) {
-      const double gain = set.gain_without(place);
-      if (gain <= most) continue;
-      most = gain;
-      worst = place;
-    }
-    if (!worst) return;
-    set.remove(*worst);
-  }
-}
-
 /// Adds what its causes still lack, the best first, as long as that shortens the description.
 void SetIsland::fill(FittedSet& set, int most) {
   for (int i = 0; i < most; ++i) {
     const std::vector<std::size_t> choice = promising(set, true);
-    if (choice.empty()) return;
-    FittedSet more = set;
-    more.add(choice.front());
-    if (more.description_nats() >= set.description_nats()) return;
-    set = std::move(more);
+    if (choice.empty() || !set.add_if_shorter(choice.front())) return;
   }
 }
 
@@ -165,7 +158,7 @@ FittedSet SetIsland::varied() {
   }
   constexpr int kMostFilled = 4;
   fill(set, kMostFilled);
-  leave_out_what_earns_nothing(set);
+  while (const auto least = set.least_worth()) set.remove(*least);
   return set;
 }
 

@@ -87,7 +87,6 @@ class SetIsland {
   void exchange_neighbour(FittedSet& set);
   void leave_out_a_cause(FittedSet& set);
   FittedSet mixed(const FittedSet& one, const FittedSet& other);
-  void leave_out_what_earns_nothing(FittedSet& set) const;
   void fill(FittedSet& set, int most);
   FittedSet varied();
   Individual individual(const FittedSet& set) const;
@@ -97,6 +96,7 @@ class SetIsland {
   IslandKey key_;
   RandomStream random_;
   Eigen::Index most_columns_ = 0;
+  std::vector<double> prices_nats_;                     ///< of the problem's effects
   std::map<std::size_t, std::vector<FittedSet>> kept_;  ///< by number of causes, the shortest description first
   IslandState state_;
 };

@@ -4,14 +4,26 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 #include "deceptive.hpp"
 
 namespace demecal {
 namespace {
+
+/// The same columns as effects of one to three.
+ExplanationProblem of_several_columns(ExplanationProblem problem) {
+  problem.spans.clear();
+  for (Eigen::Index first = 0, count = 1; first + count <= problem.moment.size(); first += count, count = count % 3 + 1)
+    problem.spans.push_back({first, count});
+  problem.naming_costs_nats.resize(problem.spans.size());
+  problem.cause.resize(problem.spans.size());
+  return problem;
+}
 
 TEST(FittedSet, IsLeastSquaresHoweverItCameAbout) {
   const ExplanationProblem problem = deceptive(3);
@@ -46,6 +58,67 @@ TEST(FittedSet, OfEffectsAtOnceIsThatOfOneAfterAnother) {
   EXPECT_NEAR(set.description_nats(), grown.description_nats(), 1e-9 * std::abs(grown.description_nats()));
   EXPECT_LT((set.coefficients() - grown.coefficients()).norm(), 1e-9 * grown.coefficients().norm());
   EXPECT_LT((set.moments_left() - grown.moments_left()).norm(), 1e-9 * problem.moment.norm());
+}
+
+TEST(FittedSet, OfEffectsOfSeveralColumnsIsThatOfAllAtOnce) {
+  const ExplanationProblem problem = of_several_columns(deceptive(8));
+  ASSERT_GT(problem.spans.size(), 5U);
+  RandomStream random{9};
+  FittedSet set(problem);
+  for (int step = 0; step < 100; ++step) {
+    const std::size_t effect = random.index(problem.spans.size());
+    if (set.holds(effect)) {
+      set.remove(static_cast<std::size_t>(std::ranges::find(set.effects(), effect) - set.effects().begin()));
+    } else {
+      set.add(effect);
+    }
+    const FittedSet afresh(problem, set.effects());
+    EXPECT_NEAR(set.description_nats(), afresh.description_nats(), 1e-6);
+    ASSERT_EQ(set.columns(), afresh.columns());
+    EXPECT_LT((set.coefficients() - afresh.coefficients()).norm(), 1e-6 * (1.0 + afresh.coefficients().norm()));
+    for (std::size_t place = 0; place < set.effects().size(); ++place)
+      EXPECT_NEAR(set.rise_without(place), afresh.rise_without(place), 1e-6 * (1.0 + afresh.rise_without(place)));
+  }
+}
+
+TEST(FittedSet, TakesAnEffectThatShortensTheDescriptionAndNoOther) {
+  for (const ExplanationProblem& problem : {deceptive(5), of_several_columns(deceptive(5))}) {
+    int taken = 0, refused = 0;
+    for (std::size_t effect = 2; effect < problem.spans.size(); ++effect) {
+      FittedSet set(problem, {0, 1}), more = set;
+      more.add(effect);
+      const bool shorter = more.description_nats() < set.description_nats();
+      EXPECT_EQ(set.add_if_shorter(effect), shorter) << effect;
+      EXPECT_EQ(set.holds(effect), shorter);
+      (shorter ? taken : refused) += 1;
+    }
+    EXPECT_GT(taken, 0);
+    EXPECT_GT(refused, 0);
+  }
+}
+
+TEST(FittedSet, TellsTheMomentsOfSomeColumnsAsThoseOfAll) {
+  const ExplanationProblem problem = deceptive(7);
+  const FittedSet set(problem, {9, 2, 14});
+  const Eigen::VectorXd all = set.moments_left(), some = set.moments_left({{1, 3}, {8, 2}});
+  EXPECT_EQ(some.segment(1, 3), all.segment(1, 3));
+  EXPECT_EQ(some.segment(8, 2), all.segment(8, 2));
+}
+
+TEST(FittedSet, IsShortestWithoutWhatIsOfLeastWorth) {
+  const ExplanationProblem problem = deceptive(5);
+  std::vector<std::size_t> effects(problem.spans.size());
+  std::iota(effects.begin(), effects.end(), 0U);
+  FittedSet set(problem, effects);
+  ASSERT_TRUE(set.least_worth());
+  while (const auto least = set.least_worth()) {
+    for (std::size_t place = 0; place < set.effects().size(); ++place)
+      EXPECT_LE(set.gain_without(place), set.gain_without(*least));
+    EXPECT_GT(set.gain_without(*least), 0.0);
+    set.remove(*least);
+  }
+  ASSERT_FALSE(set.effects().empty());
+  for (std::size_t place = 0; place < set.effects().size(); ++place) EXPECT_LE(set.gain_without(place), 0.0);
 }
 
 TEST(FittedSet, GainsOfLeavingOutAreDifferencesOfDescriptions) {
