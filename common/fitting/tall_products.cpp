@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "errors/check.hpp"
@@ -18,6 +20,7 @@ constexpr Eigen::Index kTile = kTileRows * kTileColumns;
 constexpr Eigen::Index kTerms = 256;         ///< summed up at a time, so that what they take stays near the processor
 constexpr Eigen::Index kRowsOfPiece = 2048;  ///< the parts of a sum; a multiple of kTerms
 constexpr Eigen::Index kRowsOfResult = 96;   ///< a multiple of kTileRows
+constexpr Eigen::Index kFew = 3;  ///< columns, for which it takes longer to pack the rest into tiles than to read it
 
 using Packed = std::vector<double>;
 
@@ -152,8 +155,52 @@ Tiles summed_products(const Left& left, const RowsOf& right, bool lower) {
   return all;
 }
 
+/// A matrix's numbers where they are: terms are to be summed up, one sum a lane.
+struct Lanes {
+  const double* first;
+  Eigen::Index lane_stride, term_stride;
+};
+
+/// Adds to every lane's sum what its terms come to times the factors: as tiles do it, to the bit.
+void add_few_terms(const Lanes& lanes, const Eigen::Ref<const Eigen::VectorXd>& factors,
+                   Eigen::Ref<Eigen::VectorXd> sums) {
+  constexpr Eigen::Index kAtOnce = 8;  // additions of one lane wait for one another
+  const auto add = [&](Eigen::Index lane, auto count) {
+    double sum[kAtOnce] = {};
+    const double* from = lanes.first + lane * lanes.lane_stride;
+    for (Eigen::Index term = 0; term < factors.size(); ++term, from += lanes.term_stride)
+      for (Eigen::Index i = 0; i < count; ++i) sum[i] += from[i * lanes.lane_stride] * factors[term];
+    for (Eigen::Index i = 0; i < count; ++i) sums[lane + i] += sum[i];
+  };
+  Eigen::Index lane = 0;
+  for (; lane + kAtOnce <= sums.size(); lane += kAtOnce) add(lane, std::integral_constant<Eigen::Index, kAtOnce>{});
+  for (; lane < sums.size(); ++lane) add(lane, std::integral_constant<Eigen::Index, 1>{});
+}
+
+/// summed_products() of few columns.
+template <typename Left>
+Eigen::MatrixXd product_of_few(const Left& left, const Eigen::MatrixXd& right) {
+  DEMECAL_CHECK(left.rows() == right.rows(), left.rows() << " rows and " << right.rows());
+  const Eigen::Index lane_stride = Left::IsRowMajor ? 1 : left.outerStride();
+  const Eigen::Index term_stride = Left::IsRowMajor ? left.outerStride() : 1;
+  std::vector<Eigen::MatrixXd> sums(static_cast<std::size_t>(tiles_for(left.rows(), kRowsOfPiece)));
+  in_pieces(sums.size(), [&](std::size_t part) {
+    const Eigen::Index begin = static_cast<Eigen::Index>(part) * kRowsOfPiece;
+    const Eigen::Index end = std::min(begin + kRowsOfPiece, left.rows());
+    sums[part].setZero(left.cols(), right.cols());
+    for (Eigen::Index row = begin; row < end; row += kTerms)
+      for (Eigen::Index k = 0; k < right.cols(); ++k)
+        add_few_terms({left.data() + row * term_stride, lane_stride, term_stride},
+                      right.col(k).segment(row, std::min(kTerms, end - row)), sums[part].col(k));
+  });
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(left.cols(), right.cols());
+  for (const Eigen::MatrixXd& sum : sums) all += sum;
+  return all;
+}
+
 template <typename Left>
 Eigen::MatrixXd whole_product(const Left& left, const RowsOf& right) {
+  if (right.cols() <= kFew) return product_of_few(left, right);
   const Tiles sums = summed_products(left, right, false);
   return Eigen::MatrixXd::NullaryExpr(left.cols(), right.cols(),
                                       [&](Eigen::Index i, Eigen::Index k) { return sums(i, k); });
@@ -177,13 +224,31 @@ Eigen::MatrixXd square_product(const RowsOf& rows) {
 
 RowMatrix product(const RowsOf& left, const Eigen::Ref<const Eigen::MatrixXd>& factors) {
   DEMECAL_CHECK(left.cols() == factors.rows(), left.cols() << " columns for " << factors.rows() << " factors");
+  RowMatrix result(left.rows(), factors.cols());
+  const auto parts = static_cast<std::size_t>(tiles_for(left.rows(), kRowsOfResult));
+  const auto rows_of = [&](std::size_t part) {
+    const Eigen::Index first = static_cast<Eigen::Index>(part) * kRowsOfResult;
+    return std::pair(first, std::min(kRowsOfResult, left.rows() - first));
+  };
+  if (factors.cols() <= kFew) {
+    in_pieces(parts, [&](std::size_t part) {
+      const auto [first, rows] = rows_of(part);
+      Eigen::VectorXd sums(rows);
+      for (Eigen::Index k = 0; k < factors.cols(); ++k) {
+        sums.setZero();
+        for (Eigen::Index term = 0; term < left.cols(); term += kTerms)
+          add_few_terms({left.data() + first * left.outerStride() + term, left.outerStride(), 1},
+                        factors.col(k).segment(term, std::min(kTerms, left.cols() - term)), sums);
+        result.col(k).segment(first, rows) = sums;
+      }
+    });
+    return result;
+  }
   std::vector<Packed> right;  // kTerms factors each
   for (Eigen::Index term = 0; term < left.cols(); term += kTerms)
     pack_all(factors.middleRows(term, std::min(kTerms, left.cols() - term)), kTileColumns, right.emplace_back());
-  RowMatrix result(left.rows(), factors.cols());
-  in_pieces(static_cast<std::size_t>(tiles_for(left.rows(), kRowsOfResult)), [&](std::size_t part) {
-    const Eigen::Index first = static_cast<Eigen::Index>(part) * kRowsOfResult;
-    const Eigen::Index rows = std::min(kRowsOfResult, left.rows() - first);
+  in_pieces(parts, [&](std::size_t part) {
+    const auto [first, rows] = rows_of(part);
     Tiles sums(rows, factors.cols());
     Packed terms;
     for (std::size_t block = 0; block < right.size(); ++block) {

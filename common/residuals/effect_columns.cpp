@@ -108,18 +108,9 @@ void EffectColumns::pack() {
 
 Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
   DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
-  constexpr Eigen::Index kFew = 4;  // for which it takes longer to rearrange the features than to read them
   std::vector<Eigen::MatrixXd> parts(blocks_.size());
   in_pieces(parts.size(), [&](std::size_t i) {
-    const Eigen::MatrixXd& features = blocks_[i].features;
-    const RowMatrix along = along_motion(field, blocks_[i].motion, rows);
-    if (along.cols() > kFew) {
-      parts[i] = transposed_product_of_columns(features, along);
-      return;
-    }
-    parts[i].resize(features.cols(), along.cols());
-    for (Eigen::Index k = 0; k < along.cols(); ++k)
-      parts[i].col(k) = features.transpose() * Eigen::VectorXd(along.col(k));
+    parts[i] = transposed_product_of_columns(blocks_[i].features, along_motion(field, blocks_[i].motion, rows));
   });
   return summed(blocks_, parts, columns_, rows.cols());
 }

@@ -62,9 +62,9 @@ Projection::Projection(const ModelColumns& model, const Eigen::VectorXd& fitted,
   prior_basis_ = prior * to_basis_;
   rank_ = basis_.cols();
   freedom_ = static_cast<double>(residual_.size()) - basis_.squaredNorm();
-  const Eigen::VectorXd along = basis_.transpose() * residual_ + prior_basis_.transpose() * prior_residual_;
+  const Eigen::VectorXd along = transposed_product(basis_, residual_) + prior_basis_.transpose() * prior_residual_;
   changes_ = to_basis_ * along;
-  residual_ -= basis_ * along;
+  residual_ -= product(basis_, along);
   validation_residual_ -= validation_basis_ * along;
   prior_residual_ -= prior_basis_ * along;
 }

@@ -51,9 +51,12 @@ TEST(TallProducts, AreSummedInOneOrderOnEveryMachine) {
   RandomStream random{1};
   for (const Eigen::Index rows : {0, 1, 255, 256, 257, 2047, 2049, 5000}) {
     for (const Eigen::Index columns : {1, 6, 7, 13}) {
-      const RowMatrix left = drawn(rows, columns, random), right = drawn(rows, columns + 2, random);
-      EXPECT_EQ(transposed_product(left, right), summed(left, right)) << rows << " x " << columns;
-      EXPECT_EQ(transposed_product_of_columns(left, right), summed(left, right)) << rows << " x " << columns;
+      const RowMatrix left = drawn(rows, columns, random);
+      for (const Eigen::Index others : {Eigen::Index{2}, columns + 2}) {
+        const RowMatrix right = drawn(rows, others, random);
+        EXPECT_EQ(transposed_product(left, right), summed(left, right)) << rows << " x " << columns;
+        EXPECT_EQ(transposed_product_of_columns(left, right), summed(left, right)) << rows << " x " << columns;
+      }
       EXPECT_EQ(square_product(left), summed(left, left)) << rows << " x " << columns;
     }
   }
@@ -63,8 +66,10 @@ TEST(TallProducts, OfRowsAndFactorsAreSummedOverTheFactorsInOneOrder) {
   RandomStream random{2};
   for (const Eigen::Index columns : {1, 5, 256, 300}) {
     const RowMatrix left = drawn(205, columns, random);
-    const Eigen::MatrixXd factors = drawn(columns, 9, random);
-    EXPECT_EQ(product(left, factors), RowMatrix(summed(left.transpose(), factors))) << columns;
+    for (const Eigen::Index few_and_many : {2, 9}) {
+      const Eigen::MatrixXd factors = drawn(columns, few_and_many, random);
+      EXPECT_EQ(product(left, factors), RowMatrix(summed(left.transpose(), factors))) << columns;
+    }
   }
 }
 
