@@ -127,32 +127,20 @@ bool leave_out_implausible(const LoopEnd& end, const SetModels& models, const st
   return std::erase_if(effects, is_out) > 0;
 }
 
-/// By number of causes, what is left of the model and then what evolution found, where that is shorter by as much as
-/// tells rivals apart; each shorter than all of fewer causes.
-std::vector<EffectSet> worth_having(const SetModels& models, std::vector<EffectSet> pruned,
-                                    const std::vector<EffectSet>& evolved) {
-  const std::size_t prunings = pruned.size();
+/// By number of causes: what is left of the model, and then what evolution found that is shorter, by as much as tells
+/// rivals apart, than all of fewer causes and what is left of the model with as many.
+std::vector<EffectSet> worth_having(std::vector<EffectSet> pruned, const std::vector<EffectSet>& evolved) {
+  std::vector<EffectSet> found;
+  double shortest = std::numeric_limits<double>::infinity();
   for (const EffectSet& set : evolved) {
-    const auto end = pruned.begin() + static_cast<std::ptrdiff_t>(prunings);
-    const auto same = std::ranges::find(pruned.begin(), end, set.causes, &EffectSet::causes);
-    if (same == end || set.description_nats <= same->description_nats - kNatsToDistinguish) pruned.push_back(set);
+    for (const EffectSet& left : pruned)
+      if (left.causes <= set.causes) shortest = std::min(shortest, left.description_nats);
+    if (set.description_nats <= shortest - kNatsToDistinguish) found.push_back(set);
+    shortest = std::min(shortest, set.description_nats);
   }
+  std::ranges::move(found, std::back_inserter(pruned));
   std::ranges::stable_sort(pruned, {}, &EffectSet::causes);
-  std::vector<EffectSet> sets;
-  double shortest = std::numeric_limits<double>::infinity();  // of fewer causes
-  for (auto first = pruned.begin(); first != pruned.end();) {
-    const auto last =
-        std::find_if(first, pruned.end(), [&](const EffectSet& set) { return set.causes != first->causes; });
-    double own = shortest;
-    for (; first != last; ++first) {
-      const bool known = std::ranges::equal(first->effects, models.held());
-      if (!(first->description_nats < shortest - (known ? 0.0 : kNatsToDistinguish))) continue;
-      own = std::min(own, first->description_nats);
-      sets.push_back(std::move(*first));
-    }
-    shortest = own;
-  }
-  return sets;
+  return pruned;
 }
 
 /// As rivals_of() says, among the effects that were searched.
@@ -207,7 +195,7 @@ SearchedSets searched_sets(const LoopEnd& end, const ExplanationSearch& search, 
     if (!vary || attempt == kMostAttempts) return {std::move(effects), std::move(models), std::move(sets)};
     const auto evolved = end.search_explanations(models.problem(), set_search(models.held(), search, random));
     if (leave_out_implausible(end, models, evolved, effects)) continue;
-    sets = worth_having(models, std::move(sets), evolved);
+    sets = worth_having(std::move(sets), evolved);
     return {std::move(effects), std::move(models), std::move(sets)};
   }
 }

@@ -5,6 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include "simulated_arm.hpp"
 
 namespace demecal {
@@ -110,6 +114,36 @@ TEST(ClosedLoop, KeepsSmoothJointErrorsAndBacklashApart) {
   EXPECT_EQ(found.kind, "backlash");
   EXPECT_EQ(found.joint, 1);
   EXPECT_LT(over_floor(result.model.robot, data), 1.35);  // 84 terms of 60 poses leave some
+}
+
+/// The least error on the validation poses with so many causes at most.
+double validation_rms_mm(const LoopResult& result, std::size_t causes) {
+  double least = HUGE_VAL;
+  for (const ExplanationFront::Point& point : result.front.points)
+    if (point.causes <= causes) least = std::min(least, point.validation_rms_mm);
+  return least;
+}
+
+TEST(ClosedLoop, WithEvolutionOffersNoWorseModelOfAnyNumberOfCauses) {
+  for (const std::uint64_t seed : {41, 49}) {
+    Scenario scenario = perfect_scenario(parallel_arm(), seed);
+    scenario.poses = {200, 60, 40};
+    for (int joint = 0; joint < 6; ++joint)
+      scenario.joint_errors.push_back({joint, parse("0.0008*SIN(theta*theta+" + std::to_string(joint) + ")")});
+    scenario.backlash = {{1, 5e-4}, {2, 3e-4}};
+    const DataSet data = simulate(scenario);
+    LoopOptions options = quick();
+    const LoopResult with = run_loop(data, kZeroed, options);
+    options.explanations.variations = 0;
+    const LoopResult without = run_loop(data, kZeroed, options);
+    ASSERT_GT(without.front.points.size(), 3U);
+    const std::size_t chosen = with.front.points[with.front.chosen].causes;
+    for (const ExplanationFront::Point& point : without.front.points) {
+      if (point.causes == chosen) continue;  // judged and fitted anew since
+      EXPECT_LE(validation_rms_mm(with, point.causes), 1.0001 * validation_rms_mm(without, point.causes))
+          << "seed " << seed << ", " << point.causes << " causes";
+    }
+  }
 }
 
 TEST(ClosedLoop, AddsNothingToAModelThatLacksNothing) {
