@@ -126,6 +126,7 @@ std::vector<Alike> FittedSet::alike(std::size_t place) const {
 FittedSet::Beside FittedSet::beside(const ColumnSpan& span) const {
   const auto held = static_cast<Eigen::Index>(columns_.size());
   Beside beside{Eigen::MatrixXd(held, span.count), Eigen::MatrixXd(span.count, span.count), {}, 0.0};
+  if (span.count == 0) return beside;
   Eigen::MatrixXd products(held, span.count);
   for (Eigen::Index k = 0; k < span.count; ++k) {
     const auto column = problem_->gram.col(span.first + k);

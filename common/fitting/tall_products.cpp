@@ -156,20 +156,20 @@ Tiles summed_products(const Left& left, const RowsOf& right, bool lower) {
 }
 
 /// A matrix's numbers where they are: terms are to be summed up, one sum a lane.
-struct Lanes {
+struct Summands {
   const double* first;
   Eigen::Index lane_stride, term_stride;
 };
 
 /// Adds to every lane's sum what its terms come to times the factors: as tiles do it, to the bit.
-void add_few_terms(const Lanes& lanes, const Eigen::Ref<const Eigen::VectorXd>& factors,
+void add_few_terms(const Summands& summands, const Eigen::Ref<const Eigen::VectorXd>& factors,
                    Eigen::Ref<Eigen::VectorXd> sums) {
   constexpr Eigen::Index kAtOnce = 8;  // additions of one lane wait for one another
   const auto add = [&](Eigen::Index lane, auto count) {
     double sum[kAtOnce] = {};
-    const double* from = lanes.first + lane * lanes.lane_stride;
-    for (Eigen::Index term = 0; term < factors.size(); ++term, from += lanes.term_stride)
-      for (Eigen::Index i = 0; i < count; ++i) sum[i] += from[i * lanes.lane_stride] * factors[term];
+    const double* from = summands.first + lane * summands.lane_stride;
+    for (Eigen::Index term = 0; term < factors.size(); ++term, from += summands.term_stride)
+      for (Eigen::Index i = 0; i < count; ++i) sum[i] += from[i * summands.lane_stride] * factors[term];
     for (Eigen::Index i = 0; i < count; ++i) sums[lane + i] += sum[i];
   };
   Eigen::Index lane = 0;

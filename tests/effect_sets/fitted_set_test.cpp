@@ -15,11 +15,12 @@
 namespace demecal {
 namespace {
 
-/// The same columns as effects of one to three.
+/// The same columns as effects of one to three, and one of none.
 ExplanationProblem of_several_columns(ExplanationProblem problem) {
   problem.spans.clear();
   for (Eigen::Index first = 0, count = 1; first + count <= problem.moment.size(); first += count, count = count % 3 + 1)
     problem.spans.push_back({first, count});
+  problem.spans.insert(problem.spans.begin() + 2, {problem.spans[2].first, 0});
   problem.naming_costs_nats.resize(problem.spans.size());
   problem.cause.resize(problem.spans.size());
   return problem;
