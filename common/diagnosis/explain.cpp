@@ -128,15 +128,16 @@ bool leave_out_implausible(const LoopEnd& end, const SetModels& models, const st
 }
 
 /// By number of causes: what is left of the model, and then what evolution found that is shorter, by as much as tells
-/// rivals apart, than all of fewer causes and what is left of the model with as many.
+/// rivals apart, than all these of fewer causes and what is left of the model with as many.
 std::vector<EffectSet> worth_having(std::vector<EffectSet> pruned, const std::vector<EffectSet>& evolved) {
   std::vector<EffectSet> found;
   double shortest = std::numeric_limits<double>::infinity();
   for (const EffectSet& set : evolved) {
     for (const EffectSet& left : pruned)
       if (left.causes <= set.causes) shortest = std::min(shortest, left.description_nats);
-    if (set.description_nats <= shortest - kNatsToDistinguish) found.push_back(set);
-    shortest = std::min(shortest, set.description_nats);
+    if (set.description_nats > shortest - kNatsToDistinguish) continue;
+    shortest = set.description_nats;
+    found.push_back(set);
   }
   std::ranges::move(found, std::back_inserter(pruned));
   std::ranges::stable_sort(pruned, {}, &EffectSet::causes);
