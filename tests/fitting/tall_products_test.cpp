@@ -66,8 +66,8 @@ TEST(TallProducts, OfRowsAndFactorsAreSummedOverTheFactorsInOneOrder) {
   RandomStream random{2};
   for (const Eigen::Index columns : {1, 5, 256, 300}) {
     const RowMatrix left = drawn(205, columns, random);
-    for (const Eigen::Index few_and_many : {2, 9}) {
-      const Eigen::MatrixXd factors = drawn(columns, few_and_many, random);
+    for (const Eigen::Index others : {2, 9}) {
+      const Eigen::MatrixXd factors = drawn(columns, others, random);
       EXPECT_EQ(product(left, factors), RowMatrix(summed(left.transpose(), factors))) << columns;
     }
   }
