@@ -100,19 +100,25 @@ double elementary_value(const Joint& joint, LinkParameter parameter, double q) {
   return joint.parameter(parameter) + (moves ? q : 0.0);
 }
 
+Turn turn_by(double angle_rad) {
+  return {std::cos(angle_rad), std::sin(angle_rad)};
+}
+
+void rotate(Eigen::Isometry3d& frame, int axis, const Turn& turn) {
+  auto rotation = frame.linear();
+  // A rotation about one own axis mixes the two columns that follow it cyclically.
+  const int first = (axis + 1) % 3, second = (axis + 2) % 3;
+  const Eigen::Vector3d old_first = rotation.col(first), old_second = rotation.col(second);
+  rotation.col(first) = turn.cosine * old_first + turn.sine * old_second;
+  rotation.col(second) = turn.cosine * old_second - turn.sine * old_first;
+}
+
 void advance(Eigen::Isometry3d& frame, const Elementary& transform, double value) {
   if (value == 0.0) return;
-  auto rotation = frame.linear();
-  if (!transform.rotates) {
-    frame.translation() += value * rotation.col(transform.axis);
-    return;
-  }
-  // A rotation about one own axis mixes the two columns that follow it cyclically.
-  const double cosine = std::cos(value), sine = std::sin(value);
-  const int first = (transform.axis + 1) % 3, second = (transform.axis + 2) % 3;
-  const Eigen::Vector3d old_first = rotation.col(first), old_second = rotation.col(second);
-  rotation.col(first) = cosine * old_first + sine * old_second;
-  rotation.col(second) = cosine * old_second - sine * old_first;
+  if (transform.rotates)
+    rotate(frame, transform.axis, turn_by(value));
+  else
+    frame.translation() += value * frame.linear().col(transform.axis);
 }
 
 namespace {

@@ -130,6 +130,14 @@ const std::array<Elementary, kLinkParameters>& elementary_transforms(Convention 
 /// The value of an elementary transform of a joint whose variable is `q`, rad or m.
 double elementary_value(const Joint& joint, LinkParameter parameter, double q);
 
+/// Cosine and sine of an angle.
+struct Turn {
+  double cosine = 1.0, sine = 0.0;
+};
+Turn turn_by(double angle_rad);
+/// `frame` turned about its own axis of this number.
+void rotate(Eigen::Isometry3d& frame, int axis, const Turn& turn);
+
 /// `frame` moved by an elementary transform of the given value.
 void advance(Eigen::Isometry3d& frame, const Elementary& transform, double value);
 

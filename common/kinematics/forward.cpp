@@ -30,6 +30,19 @@ Eigen::Isometry3d forward(const Chain& chain, const JointVector& q) {
       chain, q, [](int, LinkParameter, const Screw&) {}, kStays);
 }
 
+FixedTurns::FixedTurns(const Chain& chain) : chain_(chain) {
+  for (std::size_t i = 0; i < chain.joints.size(); ++i)
+    for (const Elementary& transform : elementary_transforms(chain.convention))
+      if (transform.rotates && transform.parameter != moving_parameter(chain.joints[i]))
+        turns_[i * kLinkParameters + static_cast<std::size_t>(transform.parameter)] =
+            turn_by(chain.joints[i].parameter(transform.parameter));
+}
+
+Eigen::Isometry3d forward(const FixedTurns& turns, const JointVector& q) {
+  return walk(
+      turns.chain(), turns, q, [](int, LinkParameter, const Screw&) {}, kStays);
+}
+
 Eigen::Vector3d tool_position(const Chain& chain, const JointVector& q) {
   return forward(chain, q) * chain.tool_m;
 }
@@ -40,6 +53,14 @@ Kinematics differential_kinematics(const Chain& chain, const JointVector& q, con
       chain, q, [&](int joint, LinkParameter parameter, const Screw& screw) { screws(joint, parameter, screw); },
       kStays);
   return screws.kinematics(chain, flange, point_m);
+}
+
+Kinematics differential_kinematics(const FixedTurns& turns, const JointVector& q, const Eigen::Vector3d& point_m) {
+  ScrewList screws;
+  const Eigen::Isometry3d flange = walk(
+      turns.chain(), turns, q,
+      [&](int joint, LinkParameter parameter, const Screw& screw) { screws(joint, parameter, screw); }, kStays);
+  return screws.kinematics(turns.chain(), flange, point_m);
 }
 
 Jacobian joint_jacobian(const Chain& chain, const JointVector& q, const Eigen::Vector3d& point_m) {

@@ -22,6 +22,25 @@ using LinkJacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, kMaxJoints *
 /// transforms, thesis A.2.
 Eigen::Isometry3d forward(const Chain& chain, const JointVector& q);
 
+/// What a chain's joints do not change of its turns, worked out once for many poses. Keeps the chain by reference, as
+/// it was.
+class FixedTurns {
+ public:
+  explicit FixedTurns(const Chain& chain);
+
+  const Chain& chain() const { return chain_; }
+  const Turn& operator()(int joint, LinkParameter parameter) const {
+    return turns_[static_cast<std::size_t>(joint * kLinkParameters + static_cast<int>(parameter))];
+  }
+
+ private:
+  const Chain& chain_;
+  std::array<Turn, kMaxJoints * kLinkParameters> turns_{};
+};
+
+/// The same, to the bit.
+Eigen::Isometry3d forward(const FixedTurns& turns, const JointVector& q);
+
 /// Position of the chain's tool point in the base frame, m.
 Eigen::Vector3d tool_position(const Chain& chain, const JointVector& q);
 
@@ -42,6 +61,8 @@ struct Kinematics {
 /// What a Jacobian by commanded joints is by the turns of the drives.
 Jacobian by_drives(const Chain& chain, Jacobian by_commands);
 Kinematics differential_kinematics(const Chain& chain, const JointVector& q, const Eigen::Vector3d& point_m);
+/// The same, to the bit.
+Kinematics differential_kinematics(const FixedTurns& turns, const JointVector& q, const Eigen::Vector3d& point_m);
 
 /// A small rigid motion in the axes of the frame it moves: a shift (m) by the first three, after a turn by the rotation
 /// vector (rad) of the last three about the shifted origin.
@@ -87,9 +108,11 @@ inline Eigen::Matrix<double, 6, 1> twist_at(const Screw& screw, const Eigen::Vec
 }
 
 /// Walks the chain from base to flange. Every joint's axis frame, and last the flange, is handed to `displace(place,
-/// frame)`, which may move it; every elementary transform's screw to `visit(joint, parameter, screw)`.
-template <typename Visit, typename Displace>
-Eigen::Isometry3d walk(const Chain& chain, const JointVector& q, const Visit& visit, const Displace& displace) {
+/// frame)`, which may move it; every elementary transform's screw to `visit(joint, parameter, screw)`. `fixed(joint,
+/// parameter)`: the turn of a transform that the joint does not change.
+template <typename Fixed, typename Visit, typename Displace>
+Eigen::Isometry3d walk(const Chain& chain, const Fixed& fixed, const JointVector& q, const Visit& visit,
+                       const Displace& displace) {
   DEMECAL_CHECK(q.size() == chain.size(), q.size() << " joint values for " << chain.size() << " joints");
   const JointVector driven = driven_joints(chain, q);
   Eigen::Isometry3d frame = chain.base;
@@ -100,12 +123,26 @@ Eigen::Isometry3d walk(const Chain& chain, const JointVector& q, const Visit& vi
       if (transform.parameter == LinkParameter::theta) displace(joint, frame);
       visit(joint, transform.parameter,
             Screw{transform.rotates, frame.linear().col(transform.axis), frame.translation()});
-      advance(frame, transform, elementary_value(link, transform.parameter, driven[joint]));
+      if (transform.rotates && transform.parameter != moving_parameter(link)) {
+        if (link.parameter(transform.parameter) != 0.0)
+          rotate(frame, transform.axis, fixed(joint, transform.parameter));
+      } else {
+        advance(frame, transform, elementary_value(link, transform.parameter, driven[joint]));
+      }
     }
   }
   frame = frame * chain.flange;
   displace(chain.size(), frame);
   return frame;
+}
+
+/// The same of one pose.
+template <typename Visit, typename Displace>
+Eigen::Isometry3d walk(const Chain& chain, const JointVector& q, const Visit& visit, const Displace& displace) {
+  const auto fixed = [&](int joint, LinkParameter parameter) {
+    return turn_by(chain.joints[static_cast<std::size_t>(joint)].parameter(parameter));
+  };
+  return walk(chain, fixed, q, visit, displace);
 }
 
 /// The screws met on the way, and the Jacobians of a point by them.

@@ -24,6 +24,12 @@ constexpr double kTukey = 6.0;            ///< deviations at which a row's weigh
 constexpr double kToolDeviation_m = 1.0;  ///< tools may be anywhere on the flange
 constexpr int kRegistrations = 8, kPlacingSteps = 6, kSearchSteps = 20, kArmSteps = 8;
 
+/// `turns`: those of the fit's chain.
+Eigen::Vector3d predicted_point(const TrialFit& fit, const FixedTurns& turns, const TrialRow& row) {
+  return fit.sensor_from_base[static_cast<std::size_t>(row.station)] *
+         (forward(turns, row.joints) * fit.tools_m[static_cast<std::size_t>(row.target)]);
+}
+
 double tukey_weight(double error_m, double deviation_m) {
   const double share = error_m / (kTukey * deviation_m);
   return share >= 1.0 ? 0.0 : (1 - share * share) * (1 - share * share);
@@ -47,10 +53,11 @@ void register_station(const Trial& trial, int station, TrialFit& fit) {
     if (row.station == station) rows.push_back(&row);
   if (rows.empty()) return;
   const auto n = static_cast<Eigen::Index>(rows.size());
+  const FixedTurns turns(trial.chain);
   Eigen::Matrix3Xd from(3, n), to(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     const TrialRow& row = *rows[static_cast<std::size_t>(i)];
-    from.col(i) = forward(trial.chain, row.joints) * trial.tools_m[static_cast<std::size_t>(row.target)];
+    from.col(i) = forward(turns, row.joints) * trial.tools_m[static_cast<std::size_t>(row.target)];
     to.col(i) = row.point_m;
   }
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
@@ -63,9 +70,10 @@ void register_station(const Trial& trial, int station, TrialFit& fit) {
 }
 
 void measure_errors(const Trial& trial, TrialFit& fit) {
+  const FixedTurns turns(fit.chain);
   fit.error_m.resize(trial.rows.size());
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
-    fit.error_m[i] = (trial.rows[i].point_m - predicted_point(fit, trial.rows[i])).norm();
+    fit.error_m[i] = (trial.rows[i].point_m - predicted_point(fit, turns, trial.rows[i])).norm();
     if (!std::isfinite(fit.error_m[i])) fit.error_m[i] = std::numeric_limits<double>::max();
   }
   if (fit.error_m.empty()) {
@@ -95,26 +103,23 @@ struct WeightedEquations {
   Eigen::VectorXd gradient;
 };
 
-/// The tool point's derivative with respect to all parameters, 3 x places.size().
-Eigen::MatrixXd jacobian_of(const TrialFit& fit, const TrialRow& row, const ParameterPlaces& places) {
+/// Of one row: the tool point's derivative with respect to all parameters, 3 x places.size(), and how far off it is.
+struct LinearRow {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> jacobian;
+  Eigen::Vector3d error_m;
+};
+
+LinearRow linearized(const TrialFit& fit, const FixedTurns& turns, const TrialRow& row, const ParameterPlaces& places) {
   const Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(row.station)];
   const Eigen::Vector3d& tool = fit.tools_m[static_cast<std::size_t>(row.target)];
-  const Kinematics kinematics = differential_kinematics(fit.chain, row.joints, tool);
-  const Eigen::Vector3d lever = base.linear() * (kinematics.flange * tool);
-  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3, places.size());
-  jacobian.block<3, 3>(0, 6 * row.station).setIdentity();
-  jacobian.block<3, 3>(0, 6 * row.station + 3) = -cross_matrix(lever);
-  jacobian.block<3, 3>(0, places.tool(row.target)) = base.linear() * kinematics.flange.linear();
-  if (places.links) jacobian.rightCols(kinematics.links.cols()) = base.linear() * kinematics.links.topRows<3>();
-  return jacobian;
-}
-
-void add_row(const TrialFit& fit, const TrialRow& row, const ParameterPlaces& places, double weight,
-             WeightedEquations& normal) {
-  const Eigen::MatrixXd jacobian = jacobian_of(fit, row, places);
-  const Eigen::Vector3d error = row.point_m - predicted_point(fit, row);
-  normal.information.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose(), weight);
-  normal.gradient.noalias() += weight * jacobian.transpose() * error;
+  const Kinematics kinematics = differential_kinematics(turns, row.joints, tool);
+  const Eigen::Vector3d on_arm = kinematics.flange * tool;
+  LinearRow linear{decltype(LinearRow::jacobian)::Zero(3, places.size()), row.point_m - base * on_arm};
+  linear.jacobian.block<3, 3>(0, 6 * row.station).setIdentity();
+  linear.jacobian.block<3, 3>(0, 6 * row.station + 3) = -cross_matrix(base.linear() * on_arm);
+  linear.jacobian.block<3, 3>(0, places.tool(row.target)) = base.linear() * kinematics.flange.linear();
+  if (places.links) linear.jacobian.rightCols(kinematics.links.cols()) = base.linear() * kinematics.links.topRows<3>();
+  return linear;
 }
 
 void add_priors(const Trial& trial, const TrialFit& fit, const ParameterPlaces& places, WeightedEquations& normal) {
@@ -154,14 +159,23 @@ void move(TrialFit& fit, const ParameterPlaces& places, const Eigen::VectorXd& s
 
 /// Takes a Gauss-Newton step, with Tukey's weights if it is to be robust; false where none can be taken.
 bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, TrialFit& fit) {
-  WeightedEquations normal{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
-  for (std::size_t i = 0; i < trial.rows.size(); ++i) {
-    const double share = robust ? tukey_weight(fit.error_m[i], fit.deviation_m) : 1.0;
-    if (share > 0.0) add_row(fit, trial.rows[i], places, share / (fit.deviation_m * fit.deviation_m), normal);
+  const FixedTurns turns(fit.chain);
+  const auto n = static_cast<Eigen::Index>(trial.rows.size());
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * n, places.size());
+  Eigen::VectorXd error = Eigen::VectorXd::Zero(3 * n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const double share = robust ? tukey_weight(fit.error_m[at], fit.deviation_m) : 1.0;
+    if (share <= 0.0) continue;
+    const double root_weight = std::sqrt(share) / fit.deviation_m;
+    const LinearRow linear = linearized(fit, turns, trial.rows[at], places);
+    jacobian.middleRows<3>(3 * i) = root_weight * linear.jacobian;
+    error.segment<3>(3 * i) = root_weight * linear.error_m;
   }
-  const Eigen::MatrixXd by_points = normal.information.selfadjointView<Eigen::Lower>();
+  WeightedEquations normal{jacobian.transpose() * jacobian, jacobian.transpose() * error};
+  const Eigen::MatrixXd by_points = normal.information;
   add_priors(trial, fit, places, normal);
-  const PivotedCholesky factor(normal.information.selfadjointView<Eigen::Lower>());
+  const PivotedCholesky factor(normal.information);
   const Eigen::VectorXd step = factor.solve(normal.gradient);
   if (!step.allFinite()) return false;
   fit.covariance = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
@@ -204,7 +218,7 @@ Eigen::Matrix3d TrialFit::prediction_covariance(const TrialRow& row) const {
   if (covariance.size() == 0) return Eigen::Matrix3d::Zero();
   const ParameterPlaces places{static_cast<int>(sensor_from_base.size()), static_cast<int>(tools_m.size()),
                                chain.size(), has_links()};
-  const Eigen::MatrixXd jacobian = jacobian_of(*this, row, places);
+  const Eigen::MatrixXd jacobian = linearized(*this, FixedTurns(chain), row, places).jacobian;
   return jacobian * covariance * jacobian.transpose();
 }
 
@@ -224,8 +238,7 @@ bool TrialFit::has_links() const {
 }
 
 Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row) {
-  return fit.sensor_from_base[static_cast<std::size_t>(row.station)] *
-         (forward(fit.chain, row.joints) * fit.tools_m[static_cast<std::size_t>(row.target)]);
+  return predicted_point(fit, FixedTurns(fit.chain), row);
 }
 
 TrialFit fit_base_and_tools(const Trial& trial) {
@@ -260,12 +273,14 @@ LinearizedTrial linearized(const Trial& trial, const TrialFit& fit) {
   const ParameterPlaces places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), true};
   WeightedEquations priors{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
   add_priors(trial, fit, places, priors);
+  const FixedTurns turns(fit.chain);
   const auto n = static_cast<Eigen::Index>(trial.rows.size());
   LinearizedTrial linear{Eigen::MatrixXd(3 * n, places.size()), priors.information.diagonal(), Eigen::VectorXd(3 * n)};
   for (Eigen::Index i = 0; i < n; ++i) {
     const TrialRow& row = trial.rows[static_cast<std::size_t>(i)];
-    linear.jacobian.middleRows<3>(3 * i) = jacobian_of(fit, row, places);
-    linear.error_m.segment<3>(3 * i) = row.point_m - predicted_point(fit, row);
+    const LinearRow of_row = linearized(fit, turns, row, places);
+    linear.jacobian.middleRows<3>(3 * i) = of_row.jacobian;
+    linear.error_m.segment<3>(3 * i) = of_row.error_m;
   }
   return linear;
 }
