@@ -28,9 +28,10 @@ double share_within(const Interval& range, double value) {
   return x * x * (3.0 - 2.0 * x);
 }
 
+/// By whole turns near the range's middle; beside a range of a turn and more every turn is a place of its own.
 double nearest_turn(const Chain& chain, int joint, const Interval& range, double value) {
-  const bool revolute = is_revolute(chain, joint);
-  return revolute ? wrap_near(value, 0.5 * (range.lower + range.upper)) : value;
+  const bool wraps = is_revolute(chain, joint) && range.upper - range.lower < kTurn_rad;
+  return wraps ? wrap_near(value, 0.5 * (range.lower + range.upper)) : value;
 }
 
 bool is_within(const Effect& effect, const JointVector& joints) {
@@ -48,7 +49,7 @@ struct HeldState {
 /// Of the end of `range` that is farther from `value`, which lies beyond it: a revolute joint's two ends are neighbours
 /// across the turns that were not measured, and half the way from one to the other each counts as much.
 double weight_of_farther_end(const Chain& chain, int joint, const Interval& range, double value) {
-  const double unmeasured = 2.0 * std::numbers::pi - (range.upper - range.lower);
+  const double unmeasured = kTurn_rad - (range.upper - range.lower);
   if (!is_revolute(chain, joint) || unmeasured <= 0) return 0.0;
   const double x = std::max(range.lower - value, value - range.upper) / unmeasured;
   return x * x * (3.0 - 2.0 * x);

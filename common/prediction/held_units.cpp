@@ -31,8 +31,7 @@ struct RangedJoint {
   int joint;
   Interval range;
   bool revolute;
-  Expression given;   ///< where the arm is
-  Expression value;   ///< the same, of a revolute joint by whole turns near the range's middle
+  Expression value;   ///< where the arm is: by whole turns near the middle of a range of less than a turn
   Expression nearer;  ///< within the range
   Expression beyond;  ///< how far outside, else 0
 };
@@ -42,20 +41,10 @@ std::vector<RangedJoint> ranged_joints(const Effect& effect, const SymbolicState
   for (const auto& [joint, range] : effect.ranges) {
     const Expression given = state.joints[static_cast<std::size_t>(joint)];
     const bool revolute = is_revolute(state.robot->chain, joint);
-    const Expression value = revolute ? wrapped_near(given, middle(range)) : given;
+    const Expression value = revolute && width(range) < kTurn_rad ? wrapped_near(given, middle(range)) : given;
     const Expression beyond = larger(larger(range.lower - value, value - range.upper), state.algebra().constant(0.0));
-    all.push_back({joint, range, revolute, given, value, held_within(value, range), beyond});
+    all.push_back({joint, range, revolute, value, held_within(value, range), beyond});
   }
-  return all;
-}
-
-/// Not negative where every joint is in its range as it stands.
-Expression inside(const std::vector<RangedJoint>& joints) {
-  const auto one = [](const RangedJoint& joint) {
-    return smaller(joint.given - joint.range.lower, joint.range.upper - joint.given);
-  };
-  Expression all = one(joints.front());
-  for (std::size_t i = 1; i < joints.size(); ++i) all = smaller(all, one(joints[i]));
   return all;
 }
 
@@ -82,14 +71,10 @@ std::vector<SymbolicHeldState> symbolic_held_states(const SymbolicState& state, 
   std::vector<SymbolicHeldState> all{{state.joints, algebra.constant(1.0)}};
   for (const RangedJoint& joint : joints) {
     const auto i = static_cast<std::size_t>(joint.joint);
-    // Ranges of a turn and more hold the same place twice; an arm within all of them is taken as it stands.
-    const bool wide = joint.revolute && width(joint.range) >= kTurn_rad;
-    const Expression near =
-        wide ? algebra.function(Function::if_not_negative, {inside(joints), joint.given, joint.nearer}) : joint.nearer;
     const Expression weight = fades ? algebra.constant(0.0) : symbolic_weight_of_farther_end(joint);
     const std::size_t known = all.size();
     for (std::size_t k = 0; k < known; ++k) {
-      all[k].joints[i] = near;
+      all[k].joints[i] = joint.nearer;
       if (weight.is(0.0)) continue;
       SymbolicHeldState far{all[k].joints, all[k].weight * weight};
       far.joints[i] = farther_end(joint);

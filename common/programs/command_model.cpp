@@ -134,10 +134,11 @@ void narrow(std::optional<Interval>& range, const Interval& by) {
   range->upper = std::min(range->upper, by.upper);
 }
 
-/// How far `value` stands outside the range, whole turns aside where the joint is revolute.
+/// How far `value` stands outside the range, whole turns aside where the joint is revolute and the range less than one.
 double beyond(const Interval& range, double value, bool revolute) {
+  const int most = revolute && range.upper - range.lower < kTurn_rad ? 2 : 0;
   double least = std::numeric_limits<double>::infinity();
-  for (int turns = revolute ? -2 : 0; turns <= (revolute ? 2 : 0); ++turns) {
+  for (int turns = -most; turns <= most; ++turns) {
     const double turned = value + turns * 2.0 * std::numbers::pi;
     least = std::min(least, std::max({0.0, range.lower - turned, turned - range.upper}));
   }

@@ -134,6 +134,25 @@ TEST(MeasuredRange, ASlowEffectGoesOnFromWhatItIsAtTheEnd) {
   }
 }
 
+TEST(MeasuredRange, OfATurnAndMoreAnEffectStaysWhatItIsAtTheNearerEnd) {
+  RandomStream stream{32, 3};
+  const Robot robot = laden_arm(stream, Arm::standard);
+  const Stop anywhere = random_stop(stream, robot);
+  const auto size_at = [&](const Effect& effect, double angle_rad) {
+    Stop stop = anywhere;
+    stop.joints[1] = angle_rad;
+    std::vector<UnitMotion> motions;
+    append_unit_motions(effect, robot, arm_state(robot, stop), motions);
+    return sizes(motions).at(0);
+  };
+  const Effect everywhere{.kind = "gain", .joint = 1};
+  Effect ranged = everywhere;
+  ranged.ranges = {{1, {-5.1, 5.0}}};
+  for (const double inside : {-5.1, -1.0, 4.9, 5.0}) EXPECT_EQ(size_at(ranged, inside), size_at(everywhere, inside));
+  for (const double beyond : {5.0001, 5.3, 8.0}) EXPECT_EQ(size_at(ranged, beyond), size_at(everywhere, 5.0));
+  for (const double beyond : {-5.1001, -6.0}) EXPECT_EQ(size_at(ranged, beyond), size_at(everywhere, -5.1));
+}
+
 TEST(MeasuredRange, ASlowEffectGoesOverToItsOtherEndAcrossTheUnmeasuredTurnWithoutAJump) {
   const auto lower = sizes(wobble_at(0.0, true)), upper = sizes(wobble_at(1.0, true));
   const double opposite = 0.5 + std::numbers::pi;
