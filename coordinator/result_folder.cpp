@@ -45,14 +45,12 @@ struct Mark {
   const char* name;
   const char* words;
 };
-constexpr std::array<Mark, 8> kMarks{{{"model.yaml", "demecal_model:"},
+constexpr std::array<Mark, 6> kMarks{{{"model.yaml", "demecal_model:"},
                                       {"report.json", "\"demecal_report\":"},
                                       {"report.html", "calibration report</title>"},
                                       {"events.jsonl", "\"demecal_events\":"},
                                       {"study.json", "\"demecal_study\":"},
-                                      {"comparison.json", "\"demecal_comparison\":"},
-                                      {"dataset.yaml", "# Measured on a simulated robot"},
-                                      {"dataset.yaml", "# Prepared from raw measurements"}}};
+                                      {"comparison.json", "\"demecal_comparison\":"}}};
 
 bool has_mark(const std::string& folder, const Mark& mark) {
   constexpr std::size_t kBeginning = 4096;
@@ -61,14 +59,14 @@ bool has_mark(const std::string& folder, const Mark& mark) {
          read_file(path).substr(0, kBeginning).find(mark.words) != std::string::npos;
 }
 
-/// The file by whose mark one is known that has none of its own.
+/// The file by whose mark one is known that has none of its own, and that nobody but demecal writes; otherwise none.
 std::string witness_of(const std::string& name) {
   const auto is_its = [&name](const Mark& mark) { return mark.name == name; };
   if (std::ranges::any_of(kMarks, is_its)) return name;
   if (name == "study.csv") return "study.json";
-  const bool result = name == "history.csv" || name == "fronts.csv" || name == "distal.csv" || name == "proposed.csv" ||
-                      name == "pose-errors.csv";
-  return result ? "report.json" : "dataset.yaml";
+  const bool result =
+      name == "history.csv" || name == "fronts.csv" || name == "distal.csv" || name == "pose-errors.csv";
+  return result ? "report.json" : "";
 }
 
 bool is_of_earlier_version(const std::string& folder, const std::string& name) {
@@ -211,7 +209,7 @@ WrittenFiles::WrittenFiles(std::string folder) : folder_(std::move(folder)) {
   while (lines >> hash >> std::ws && std::getline(lines, name)) hashes_[name].insert(hash);
 }
 
-/// What an earlier version left, which kept no list, is as if listed.
+/// Results of a folder whose list is lost are as if listed; tables and files that people write, too, are not.
 void WrittenFiles::take_over() {
   if (!std::filesystem::is_directory(folder_)) return;
   for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(folder_)) {

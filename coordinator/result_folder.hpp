@@ -24,8 +24,8 @@ class WrittenFiles {
   /// Reads the folder's list, if there is one. Throws InputError where it cannot be read.
   explicit WrittenFiles(std::string folder);
 
-  /// Those of `names` that are in the folder and are not as demecal left them. In a folder without a list, as earlier
-  /// versions left them, files go by what stands in them.
+  /// Those of `names` that are in the folder and are not as demecal left them. In a folder without a list
+  /// results go by what stands in them.
   std::vector<std::string> strangers(const std::vector<std::string>& names) const;
 
   /// Writes a file, whole or not at all, and notes it.

@@ -71,14 +71,18 @@ TEST(ResultFolder, KeepsWhatWasChangedSinceUnlessForced) {
   EXPECT_EQ(diagnose_into(job, "out", {"--force"}).code, 0);
 }
 
-TEST(ResultFolder, KnowsWhatEarlierVersionsLeftThatKeptNoList) {
+TEST(ResultFolder, KnowsItsResultsWithoutAListAndTakesNothingElseForItsOwn) {
   const SmallJob job;
   ASSERT_EQ(diagnose_into(job, "out", {"--propose", "3"}).code, 0);
   std::filesystem::remove(job.path("out/.demecal-files"));
   EXPECT_EQ(run("demecal", {"report", job.path("out")}).code, 0);
-  EXPECT_EQ(diagnose_into(job, "out", {"--propose", "3"}).code, 0);
+  EXPECT_EQ(diagnose_into(job, "out").code, 0);
+  EXPECT_EQ(diagnose_into(job, "out", {"--propose", "3"}).code, 10) << "a person may have filled it in";
   std::filesystem::remove(job.path("data/.demecal-files"));
-  EXPECT_EQ(run("demecal", {"simulate", job.path("scenario.yaml"), "--out", job.path("data")}).code, 0);
+  leave(job, "data/my-robot.yaml", "mine");
+  EXPECT_EQ(run("demecal", {"robot", "show", "ur5e", "--out", job.path("data/my-robot.yaml")}).code, 10);
+  EXPECT_EQ(job.text("data/my-robot.yaml"), "mine");
+  EXPECT_EQ(run("demecal", {"simulate", job.path("scenario.yaml"), "--out", job.path("data")}).code, 10);
 }
 
 /// A table of poses by numbers, each a thousandth: as if metres stood where millimetres are meant.
