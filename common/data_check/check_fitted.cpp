@@ -87,41 +87,92 @@ std::vector<Finding> implausible_links(const Chain& described, const Chain& fitt
   return findings;
 }
 
+/// A fitted model beside the points that were measured.
+class FittedArm {
+ public:
+  FittedArm(const DataSet& data, const CorrectedRobot& robot) : data_(data), robot_(robot) {}
+
+  std::vector<TrialRow> rows(const std::function<bool(const MeasuredPose&)>& wanted) const {
+    std::vector<TrialRow> rows;
+    for (std::size_t i = 0; i < data_.poses.size(); ++i) {
+      const MeasuredPose& pose = data_.poses[i];
+      if (pose.position_m && wanted(pose)) rows.push_back({pose.joints, *pose.position_m, 0, 0, i});
+    }
+    return rows;
+  }
+
+  Eigen::Vector3d point(const TrialRow& row) const {
+    const MeasuredPose& pose = data_.poses[row.pose];
+    return robot_.predict(Stop(pose).with_joints(row.joints), pose.target).translation();
+  }
+
+  std::vector<double> errors_m(const std::vector<TrialRow>& rows) const {
+    std::vector<double> errors;
+    for (const TrialRow& row : rows) errors.push_back(error_m(row));
+    return errors;
+  }
+
+  /// Those of the rows, not none, that are off alone.
+  std::vector<Finding> single_poses(const std::vector<TrialRow>& rows) const {
+    const Chain& chain = data_.robot.chain;
+    const double least_m = kNotableShare * Trial{chain, {chain.tool_m}, rows, 1}.reach_m();
+    const double deviation_m = std::max(median(errors_m(rows)) / normal_length_quantile(3, 0.5), 1e-6);
+    const PointPrediction predict{[this](const TrialRow& row) { return point(row); },
+                                  [&](const TrialRow& row) { return error_m(row) / deviation_m; }};
+    return find_single_poses(data_, rows, predict, least_m);
+  }
+
+ private:
+  double error_m(const TrialRow& row) const { return (row.point_m - point(row)).norm(); }
+
+  const DataSet& data_;
+  const CorrectedRobot& robot_;
+};
+
+/// Takes back what was said of single poses and of whole sets before there was a model that explains them: elasticity
+/// makes outliers of the most telling poses, and drift another frame of the last set.
+void withdraw_explained(const FittedArm& arm, std::vector<Finding>& findings) {
+  constexpr double kAlike = 2.0;  ///< ratio of median errors up to which a set is as the others are
+  const std::vector<TrialRow> all = arm.rows([](const MeasuredPose&) { return true; });
+  if (all.empty()) return;
+  std::set<std::string> off;
+  for (const Finding& finding : arm.single_poses(all)) off.insert(finding.poses.begin(), finding.poses.end());
+  std::erase_if(findings, [&](const Finding& finding) {
+    const std::set<std::string> own(finding.poses.begin(), finding.poses.end());
+    const auto is_own = [&](const MeasuredPose& pose) { return own.contains(pose.pose_id); };
+    const std::vector<TrialRow> inside = arm.rows(is_own), outside = arm.rows(std::not_fn(is_own));
+    if (inside.empty() || outside.empty()) return false;
+    if (finding.kind == FindingKind::outlier || finding.kind == FindingKind::typing_error)
+      return std::ranges::none_of(finding.poses, [&](const std::string& id) { return off.contains(id); });
+    return (finding.kind == FindingKind::set_in_other_frame || finding.kind == FindingKind::wrong_tool) &&
+           median(arm.errors_m(inside)) < kAlike * median(arm.errors_m(outside));
+  });
+}
+
 }  // namespace
 
 void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& check) {
   for (Finding& finding : implausible_links(data.robot.chain, robot.chain))
     check.findings.push_back(std::move(finding));
+  const FittedArm arm(data, robot);
+  withdraw_explained(arm, check.findings);
   std::set<std::string> named;
   for (const Finding& finding : check.findings) named.insert(finding.poses.begin(), finding.poses.end());
-  std::vector<TrialRow> rows;
-  for (std::size_t i = 0; i < data.poses.size(); ++i) {
-    const MeasuredPose& pose = data.poses[i];
-    if (pose.position_m && !named.contains(pose.pose_id)) rows.push_back({pose.joints, *pose.position_m, 0, 0, i});
-  }
-  const auto point = [&](const TrialRow& row) -> Eigen::Vector3d {
-    const MeasuredPose& pose = data.poses[row.pose];
-    return robot.predict(Stop(pose).with_joints(row.joints), pose.target).translation();
-  };
-  const auto error = [&](const TrialRow& row) { return (row.point_m - point(row)).norm(); };
-  std::vector<Eigen::Vector3d> predicted, measured;
-  std::vector<double> errors;
-  for (const TrialRow& row : rows) {
-    predicted.push_back(point(row));
-    measured.push_back(row.point_m);
-    errors.push_back(error(row));
-  }
+  const std::vector<TrialRow> rows = arm.rows([&](const MeasuredPose& pose) { return !named.contains(pose.pose_id); });
   for (Finding& finding : find_wrong_contacts(data, robot))
     if (finding.poses.empty() || !named.contains(finding.poses.front())) check.findings.push_back(std::move(finding));
-  if (errors.empty()) return;
+  if (rows.empty()) return;
   // Of poses that stand in two frames already, none is the model's.
-  if (const auto other =
-          std::ranges::none_of(check.findings, moves_some_poses) ? find_other_frame(predicted, measured) : std::nullopt)
-    return check.findings.push_back(in_other_frame(*other));
-  const double least_m = kNotableShare * Trial{data.robot.chain, {data.robot.chain.tool_m}, rows, 1}.reach_m();
-  const double deviation_m = std::max(median(errors) / normal_length_quantile(3, 0.5), 1e-6);
-  const PointPrediction predict{point, [&](const TrialRow& row) { return error(row) / deviation_m; }};
-  for (Finding& finding : find_single_poses(data, rows, predict, least_m)) check.findings.push_back(std::move(finding));
+  if (std::ranges::none_of(check.findings, moves_some_poses)) {
+    std::vector<Eigen::Vector3d> predicted, measured;
+    for (const TrialRow& row : rows) {
+      predicted.push_back(arm.point(row));
+      measured.push_back(row.point_m);
+    }
+    if (const auto other = find_other_frame(predicted, measured))
+      return check.findings.push_back(in_other_frame(*other));
+  }
+  std::ranges::move(arm.single_poses(rows), std::back_inserter(check.findings));
 }
 
 void check_fitted(const DataSet& data, const CorrectedRobot& robot, const std::optional<Posterior>& posterior,

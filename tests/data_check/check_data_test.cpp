@@ -235,40 +235,6 @@ TEST(CheckData, TakesSmallAnglesForRadiansWhereOnlyLengthsWereMeasured) {
   EXPECT_THAT(kinds_of(checked(data)), Contains(FindingKind::unit));
 }
 
-TEST(CheckFitted, NamesALinkThatIsFittedFarFromItsDescription) {
-  const DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
-  CorrectedRobot robot = fit_registration(data, poses_of(data, PoseSet::calibration),
-                                          {.registration = true, .tool = true}, nominal_robot(data))
-                             .robot;
-  robot.chain.joints[3].a_m += 0.014;
-  robot.chain.joints[4].theta_rad += radians(2.9);
-  DataCheck near, far;
-  check_fitted(data, robot, near);
-  EXPECT_FALSE(near.has(FindingKind::implausible_link));
-  robot.chain.joints[1].a_m += 0.05;
-  robot.chain.joints[1].theta_rad -= radians(5.0);
-  check_fitted(data, robot, far);
-  ASSERT_TRUE(far.has(FindingKind::implausible_link));
-  const Finding& finding = far.findings.front();
-  EXPECT_EQ(finding.joint, 1);
-  EXPECT_FALSE(contradicts(finding.kind));
-  EXPECT_THAT(finding.sentence, HasSubstr("Joint 2 and its link are fitted far from the robot's description: theta"));
-}
-
-TEST(CheckFitted, SaysThatALaterMeasurementStandsInAnotherFrameUnlessItStandsInTwo) {
-  DataSet data = bench::unmistaken_cases({arms()[1]}, 1).front().data;
-  const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), {.registration = true, .tool = true},
-                                   nominal_robot(data));
-  DataCheck before, after, in_two{{{.kind = FindingKind::instrument_moved}}};
-  check_fitted(data, fit.robot, before);
-  EXPECT_FALSE(before.has(FindingKind::set_in_other_frame)) << sentences_of(before);
-  for (MeasuredPose& pose : data.poses) *pose.position_m += Eigen::Vector3d(0.02, 0.01, -0.015);
-  check_fitted(data, fit.robot, after);
-  EXPECT_TRUE(after.has(FindingKind::set_in_other_frame)) << sentences_of(after);
-  check_fitted(data, fit.robot, in_two);
-  EXPECT_FALSE(in_two.has(FindingKind::set_in_other_frame)) << sentences_of(in_two);
-}
-
 TEST(CheckData, NamesPayloadsThatNoArmCarries) {
   DataSet data = long_measurements(1).front();
   for (MeasuredPose& pose : data.poses) pose.payload_kg = 8.0;
