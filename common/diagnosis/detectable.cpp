@@ -128,6 +128,15 @@ void mark_untestable(std::vector<NotFound>& not_found, const Robot& robot, const
   }
 }
 
+/// What was found and taken back is not below a limit that it exceeds.
+void raise_to_what_was_found(const std::vector<Effect>& taken_back, std::vector<NotFound>& not_found) {
+  for (NotFound& missing : not_found)
+    for (const Effect& effect : taken_back)
+      if (effect.kind == missing.effect.kind && effect.joint == missing.effect.joint)
+        for (const double value : effect.values)
+          missing.smallest_detectable = std::max(missing.smallest_detectable, std::abs(value));
+}
+
 /// The candidates that were refused as larger than a real arm's effects.
 std::vector<std::size_t> refused(const std::vector<Candidate>& candidates, const std::vector<Round>& rounds) {
   std::vector<std::size_t> found;
@@ -169,7 +178,9 @@ void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxim
     const RowMatrix validation = RowMatrix::Zero(loop.linearization.validation.rows(), count);
     beyond.add(beyond.trial(loop.columns.dense(loop.linearization.fitted, index), validation));
   }
-  const Scan scan(loop.columns, naming_costs_nats(loop.candidates), loop.linearization.fitted, beyond);
+  const Scan scan = set_aside.empty()
+                        ? loop.scan
+                        : Scan(loop.columns, naming_costs_nats(loop.candidates), loop.linearization.fitted, beyond);
   std::vector<double> maxima = null_maxima;
   if (!set_aside.empty())
     maxima = scan.null_maxima(loop.columns, loop.linearization.fitted, beyond, options.null_draws, random);
@@ -185,6 +196,7 @@ void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxim
                                                    .variance = variance,
                                                    .poses = loop.linearization.fitted.poses.size()});
   mark_untestable(all, loop.robot, loop.linearization.fitted.states);
+  raise_to_what_was_found(outcome.dropped, all);
   outcome.not_found = std::move(all);
   std::ranges::move(hidden_kinds(loop, scores), std::back_inserter(outcome.untestable));
 }

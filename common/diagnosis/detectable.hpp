@@ -50,6 +50,7 @@ struct FinishedLoop {
   const Linearization& linearization;  ///< the model
   const std::vector<Candidate>& candidates;
   const EffectColumns& columns;  ///< of the candidates
+  const Scan& scan;              ///< of the same beyond the model
   const std::vector<Round>& rounds;
 };
 struct BoundOptions {

@@ -132,15 +132,7 @@ void ClosedLoop::measure_pure_error(const Linearization& linearization) {
   // Repeats by a precise instrument say nothing of what a coarse one leaves: all in units of their station's noise.
   const auto pure = pure_error(problem_.data, problem_.fitted, model_.scales);
   if (!pure) return;
-  const RowMatrix errors = unwhitened(linearization.fitted, linearization.errors);
-  double squares = 0.0, freedom = 0.0;
-  for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
-    const Eigen::Index first = linearization.fitted.first_row[i];
-    if (!problem_.data.poses[linearization.fitted.poses[i]].position_m) continue;
-    squares += errors.middleRows(first, 3).squaredNorm();
-    freedom += 3.0 - linearization.projection.basis().middleRows(first, 3).squaredNorm();
-  }
-  squares *= std::pow(model_.scales[kPosition], 2);
+  const auto [squares, freedom] = position_errors(problem_, linearization, model_.scales);
   if (!outcome_.lack_of_fit_p) outcome_.lack_of_fit_p = lack_of_fit_p_value(*pure, squares, freedom);
   const double left = squares / freedom - std::pow(pure->deviation_m, 2);
   if (!start_excess_) start_excess_ = left;
@@ -202,8 +194,8 @@ bool ClosedLoop::run_group(const Linearization& linearization) {
 LoopResult ClosedLoop::run(DiagnosedModel start) {
   LoopResult result;
   model_ = refined(problem_, std::move(start), kFirstSteps);
-  estimate_noise();
   result.before = model_;
+  estimate_noise();
   held_at_start_ = static_cast<int>(model_.robot.effects.size());
   Linearization linearization = linearize(problem_, model_);
   make_candidates(linearization);
@@ -280,10 +272,13 @@ void ClosedLoop::finish(const Linearization& linearization) {
   outcome_.noise_estimated = model_.noise_estimated;
   outcome_.independent_m = model_.scales[kPosition];
   update_rounds(outcome_, model_.robot, problem_.data.robot);
+  const Scan scan(columns_, naming_costs_nats(candidates_), linearization.fitted, linearization.projection);
+  const FinishedLoop finished{problem_.data.robot, model_, linearization, candidates_, columns_, scan, outcome_.rounds};
+  update_rivals(finished, outcome_.rounds);
   exclude_own_forms(outcome_.rounds);
   find_next_measurements(problem_, model_, random(RandomPurpose::next_measurement), outcome_.rounds);
-  find_limits({problem_.data.robot, model_, linearization, candidates_, columns_, outcome_.rounds}, null_maxima_,
-              {options_.family_error, options_.null_draws}, random(RandomPurpose::null_distribution), outcome_);
+  find_limits(finished, null_maxima_, {options_.family_error, options_.null_draws},
+              random(RandomPurpose::null_distribution), outcome_);
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i)
     if (linearization.fitted.root_weight[i] < kOutlier) outcome_.outliers.push_back(linearization.fitted.poses[i]);
 }

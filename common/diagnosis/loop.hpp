@@ -10,6 +10,7 @@
 
 #include "data/data_set.hpp"
 #include "diagnosis/candidates.hpp"
+#include "diagnosis/detectable.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effect_sets/set_island.hpp"
 #include "explanations/error_budget.hpp"
@@ -50,8 +51,9 @@ struct LoopOptions {
 using RoundWatcher = std::function<bool(const Round&)>;
 
 struct LoopResult {
-  DiagnosedModel before;                 ///< everything declared, at its least-squares values: the loop's start
-  DiagnosedModel model;                  ///< with the effects that were chosen
+  DiagnosedModel before;  ///< everything declared, at its least-squares values: the loop's start. With the
+                          ///< noise estimated it would be weighted by what the model still lacks
+  DiagnosedModel model;   ///< with the effects that were chosen
   std::optional<DiagnosedModel> best{};  ///< the model of the least error on the validation poses, where it is another
   ExplanationFront front{};              ///< about the model
   LoopOutcome outcome;
@@ -69,9 +71,20 @@ LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const 
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
                                  const std::vector<Candidate>& candidates, LoopOutcome& outcome);
 
+/// The sum of squares (m^2) of what the model leaves of the fitted poses' positions, and the freedom they have left.
+struct PositionErrors {
+  double squares = 0.0, freedom = 0.0;
+};
+PositionErrors position_errors(const DiagnosisProblem& problem, const Linearization& linearization,
+                               const RowScales& scales);
+
 /// Brings the rounds up to date with the final model: added effects with their values in it; those that are no longer
 /// in it were not added after all.
 void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described);
+
+/// Rivals of the effects that were added, beside all others of the final model: those found when an effect was added
+/// are of a model that lacked others.
+void update_rivals(const FinishedLoop& loop, std::vector<Round>& rounds);
 
 /// What to measure next, for the first few effects that have rivals.
 void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedModel& model, const RandomStream& random,

@@ -68,7 +68,7 @@ enum class StopReason { not_run, no_structure, no_gain, max_effects, decoy };
 struct LoopOutcome {
   StopReason stopped = StopReason::not_run;
   std::vector<Round> rounds;
-  std::vector<Effect> dropped;  ///< added and taken back by the backward step
+  std::vector<Effect> dropped;  ///< added and taken back
   std::vector<NotFound> not_found;
   std::vector<UntestableKind> untestable;
   std::vector<std::string> considered{};  ///< kinds, where not all of the catalogue were

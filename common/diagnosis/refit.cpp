@@ -100,6 +100,20 @@ const Effect* held_effect(const CorrectedRobot& model, const Effect& effect) {
 
 }  // namespace
 
+PositionErrors position_errors(const DiagnosisProblem& problem, const Linearization& linearization,
+                               const RowScales& scales) {
+  const RowMatrix errors = unwhitened(linearization.fitted, linearization.errors);
+  PositionErrors sum;
+  for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
+    const Eigen::Index first = linearization.fitted.first_row[i];
+    if (!problem.data.poses[linearization.fitted.poses[i]].position_m) continue;
+    sum.squares += errors.middleRows(first, 3).squaredNorm();
+    sum.freedom += 3.0 - linearization.projection.basis().middleRows(first, 3).squaredNorm();
+  }
+  sum.squares *= std::pow(scales[kPosition], 2);
+  return sum;
+}
+
 void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described) {
   for (Round& round : outcome.rounds) {
     if (round.verdict != Verdict::added) continue;
@@ -111,8 +125,23 @@ void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robo
     } else {
       round.verdict = Verdict::rejected;
       round.reason = "taken back: the model that was kept does without it";
+      const auto is_it = [&](const Effect& effect) { return effect.same_law_as(round.effect); };
+      if (std::ranges::none_of(outcome.dropped, is_it)) outcome.dropped.push_back(round.effect);
     }
   }
+}
+
+void update_rivals(const FinishedLoop& loop, std::vector<Round>& rounds) {
+  const auto columns = effect_column_indices(loop.linearization, loop.model.robot.effects.size());
+  in_pieces(rounds.size(), [&](std::size_t i) {
+    const Effect* const held = held_effect(loop.model.robot, rounds[i].effect);
+    if (rounds[i].verdict != Verdict::added || held == nullptr) return;
+    const std::vector<Eigen::Index>& own = columns[static_cast<std::size_t>(held - loop.model.robot.effects.data())];
+    Eigen::VectorXd values = loop.linearization.changes(own);
+    for (std::size_t k = 0; k < own.size(); ++k) values[static_cast<Eigen::Index>(k)] += held->value(k);
+    const ModelPart part = part_of_model(loop.linearization.projection.to_basis()(own, Eigen::all), values);
+    rounds[i].rivals = rivals_of_held(*held, part, loop.candidates, loop.scan);
+  });
 }
 
 void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedModel& model, const RandomStream& random,

@@ -37,6 +37,21 @@ bool is_its_wave(const Effect& named, const Effect& other) {
 
 }  // namespace
 
+ModelPart part_of_model(const Eigen::MatrixXd& to_basis, const Eigen::VectorXd& values) {
+  // With the covariance C of the numbers these are the directions of their inverse's root; what they explain is C^-1/2
+  // times the values.
+  const Eigen::MatrixXd covariance = to_basis * to_basis.transpose();
+  Eigen::VectorXd scale = covariance.diagonal().cwiseSqrt();
+  for (double& value : scale) value = value > 0.0 ? 1.0 / value : 0.0;
+  const auto eigen = eigen_system(scale.asDiagonal() * covariance * scale.asDiagonal());
+  Eigen::MatrixXd turn(values.size(), values.size());
+  Eigen::Index rank = 0;
+  for (Eigen::Index i = 0; i < values.size(); ++i)
+    if (eigen.values[i] > kNewShare)
+      turn.col(rank++) = scale.cwiseProduct(eigen.vectors.col(i)) / std::sqrt(eigen.values[i]);
+  return {to_basis.transpose() * turn.leftCols(rank), turn.leftCols(rank).transpose() * values};
+}
+
 Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
            const Projection& model)
     : spans_(columns.spans()),
@@ -62,31 +77,57 @@ void Scan::follow(const Eigen::MatrixXd& products, const Projection::Trial& tria
   invert();
 }
 
+/// Of a candidate's columns beyond a model: `left` is their Gram matrix, `lengths` the squares of whole columns.
+Scan::Gram Scan::inverted(const Eigen::MatrixXd& left, const Eigen::VectorXd& lengths) {
+  Gram gram;
+  Eigen::VectorXd scale = lengths.cwiseSqrt();
+  for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
+  const auto eigen = eigen_system(scale.asDiagonal() * left * scale.asDiagonal());
+  Eigen::VectorXd inverse = eigen.values;
+  for (double& value : inverse) {
+    gram.rank += value > kNewShare;
+    value = value > kNewShare ? 1 / value : 0.0;
+  }
+  const Eigen::MatrixXd turned = scale.asDiagonal() * eigen.vectors;
+  gram.inverse = turned * inverse.asDiagonal() * turned.transpose();
+  gram.visible = left.diagonal().cwiseMax(0.0);
+  if (gram.rank == 0) gram.visible.setZero();
+  return gram;
+}
+
 void Scan::invert() {
   grams_.assign(spans_.size(), {});
   in_pieces(spans_.size(), [&](std::size_t i) {
     const auto along = along_.middleRows(spans_[i].first, spans_[i].count);
-    const Eigen::MatrixXd left = whole_[i] - along * along.transpose();
-    Eigen::VectorXd scale = whole_[i].diagonal().cwiseSqrt();
-    for (double& value : scale) value = value > kNoColumn ? 1 / value : 0.0;
-    const auto eigen = eigen_system(scale.asDiagonal() * left * scale.asDiagonal());
-    Eigen::VectorXd inverse = eigen.values;
-    for (double& value : inverse) {
-      grams_[i].rank += value > kNewShare;
-      value = value > kNewShare ? 1 / value : 0.0;
-    }
-    const Eigen::MatrixXd turned = scale.asDiagonal() * eigen.vectors;
-    grams_[i].inverse = turned * inverse.asDiagonal() * turned.transpose();
-    grams_[i].visible = left.diagonal().cwiseMax(0.0);
-    if (grams_[i].rank == 0) grams_[i].visible.setZero();
+    grams_[i] = inverted(whole_[i] - along * along.transpose(), whole_[i].diagonal());
   });
 }
 
-double Scan::gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const {
+double Scan::gain_nats(double drop, double squares, Eigen::Index rank, double naming_cost_nats) const {
   if (rank == 0) return 0.0;
   const double share = std::min(drop / squares, 1.0 - 1e-12);
-  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) -
-         naming_costs_nats_[candidate];
+  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) - naming_cost_nats;
+}
+
+double Scan::gain_nats(const ModelPart& part, double naming_cost_nats) const {
+  const double drop = part.explained.squaredNorm();
+  return gain_nats(drop, squares_ + drop, part.explained.size(), naming_cost_nats);
+}
+
+Scan::InPlace Scan::in_place_of(const ModelPart& part) const {
+  InPlace all{std::vector<double>(spans_.size(), 0.0), std::vector<double>(spans_.size(), 0.0)};
+  const double square = part.explained.squaredNorm();
+  for (std::size_t i = 0; i < spans_.size() && square > 0.0; ++i) {
+    const auto along = along_.middleRows(spans_[i].first, spans_[i].count);
+    const Eigen::MatrixXd own = along * part.directions;
+    const Gram gram = inverted(whole_[i] - along * along.transpose() + own * own.transpose(), whole_[i].diagonal());
+    const Eigen::VectorXd shared = own * part.explained;
+    const Eigen::VectorXd moment = moment_.segment(spans_[i].first, spans_[i].count) + shared;
+    all.cosines[i] = std::sqrt(std::clamp(shared.dot(gram.inverse * shared) / square, 0.0, 1.0));
+    all.gains_nats[i] =
+        gain_nats(moment.dot(gram.inverse * moment), squares_ + square, gram.rank, naming_costs_nats_[i]);
+  }
+  return all;
 }
 
 std::vector<Score> Scan::scores() const {
@@ -96,7 +137,7 @@ std::vector<Score> Scan::scores() const {
     scores[i].drop = moment.dot(grams_[i].inverse * moment);
     scores[i].rank = grams_[i].rank;
     scores[i].visible = grams_[i].visible;
-    scores[i].gain_nats = gain_nats(scores[i].drop, squares_, scores[i].rank, i);
+    scores[i].gain_nats = gain_nats(scores[i].drop, squares_, scores[i].rank, naming_costs_nats_[i]);
   }
   return scores;
 }
@@ -142,7 +183,8 @@ double Scan::best_gain(const Eigen::VectorXd& moments, double squares) const {
   for (std::size_t k = 0; k < spans_.size(); ++k) {
     const auto moment = moments.segment(spans_[k].first, spans_[k].count);
     if (grams_[k].rank == 0) continue;
-    best = std::max(best, gain_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, k));
+    best = std::max(best,
+                    gain_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, naming_costs_nats_[k]));
   }
   return best;
 }
@@ -160,7 +202,9 @@ void keep_nearest(std::vector<Rival>& rivals) {
 
 std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const Eigen::MatrixXd& products,
                              const std::vector<Candidate>& all, const std::vector<Score>& scores, const Scan& scan) {
-  const double square = (explained.fitted * explained.coefficients).squaredNorm();
+  // What is believed has its share: where poses share errors it is the larger part.
+  const double square = (explained.fitted * explained.coefficients).squaredNorm() +
+                        (explained.prior * explained.coefficients).squaredNorm();
   const std::vector<double> cosines = scan.cosines(products * explained.along, square);
   std::vector<Rival> rivals;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -168,6 +212,21 @@ std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explain
     const double behind = scores[named].gain_nats - scores[i].gain_nats;
     if (is_rival(all[named].effect, all[i].effect, cosines[i], behind))
       rivals.push_back({all[i].effect, cosines[i], behind});
+  }
+  keep_nearest(rivals);
+  return rivals;
+}
+
+std::vector<Rival> rivals_of_held(const Effect& held, const ModelPart& part, const std::vector<Candidate>& all,
+                                  const Scan& scan) {
+  const Scan::InPlace others = scan.in_place_of(part);
+  const double own_nats = scan.gain_nats(part, naming_cost_nats(held, all));
+  std::vector<Rival> rivals;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].decoy_kind != DecoyKind::none || all[i].effect.same_law_as(held)) continue;
+    const double behind = own_nats - others.gains_nats[i];
+    if (is_rival(held, all[i].effect, others.cosines[i], behind))
+      rivals.push_back({all[i].effect, others.cosines[i], behind});
   }
   keep_nearest(rivals);
   return rivals;

@@ -26,6 +26,16 @@ struct Score {
   Eigen::VectorXd visible;  ///< per coefficient: the squared length of its column beyond the model
 };
 
+/// Some numbers of a model, beyond all its others: orthonormal directions of its basis (rank x k), and what they
+/// explain along these (k).
+struct ModelPart {
+  Eigen::MatrixXd directions;
+  Eigen::VectorXd explained;
+};
+
+/// `to_basis`: the numbers' rows of Projection::to_basis(). Combinations of them that the others explain are left out.
+ModelPart part_of_model(const Eigen::MatrixXd& to_basis, const Eigen::VectorXd& values);
+
 /// All candidates' projections off one model. Building it costs one pass over the candidates' columns.
 class Scan {
  public:
@@ -45,6 +55,14 @@ class Scan {
   /// beyond the model too; `products`: columns^T direction; `square`: its squared length.
   std::vector<double> cosines(const Eigen::MatrixXd& products, double square) const;
 
+  /// Per candidate, with a part of the model taken out: the cosine with what the part explains, and gain_nats.
+  struct InPlace {
+    std::vector<double> cosines, gains_nats;
+  };
+  InPlace in_place_of(const ModelPart& part) const;
+  /// Description length that the part saves, its name at that price.
+  double gain_nats(const ModelPart& part, double naming_cost_nats) const;
+
   /// The largest gain_nats of any candidate, ascending, over `count` draws of the noise in place of the
   /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005).
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
@@ -56,7 +74,8 @@ class Scan {
     Eigen::Index rank = 0;
     Eigen::VectorXd visible;
   };
-  double gain_nats(double drop, double squares, Eigen::Index rank, std::size_t candidate) const;
+  static Gram inverted(const Eigen::MatrixXd& left, const Eigen::VectorXd& lengths);
+  double gain_nats(double drop, double squares, Eigen::Index rank, double naming_cost_nats) const;
   double best_gain(const Eigen::VectorXd& moments, double squares) const;
   void invert();
 
@@ -81,6 +100,11 @@ void keep_nearest(std::vector<Rival>& rivals);
 /// it. `products`: all candidates' columns^T the new ones of `explained`.
 std::vector<Rival> rivals_of(std::size_t named, const Projection::Trial& explained, const Eigen::MatrixXd& products,
                              const std::vector<Candidate>& all, const std::vector<Score>& scores, const Scan& scan);
+
+/// The same of an effect that the model holds, beside all others of it; `part` is what its numbers are of the model,
+/// and `scan` of candidates beyond the whole model.
+std::vector<Rival> rivals_of_held(const Effect& held, const ModelPart& part, const std::vector<Candidate>& all,
+                                  const Scan& scan);
 
 /// Takes other forms of an effect, which are no rivals of it, out of its round.
 void exclude_own_forms(std::vector<Round>& rounds);

@@ -49,7 +49,9 @@ class Projection {
   const Eigen::VectorXd& changes() const { return changes_; }
   /// By how much they change where the fitted rows' share along the basis is less by `along`: rank().
   Eigen::VectorXd changes_along(const Eigen::VectorXd& along) const { return to_basis_ * along; }
-  /// Of the same, in rows of unit variance.
+  /// What makes the basis of the columns it was made from: one row a column.
+  const Eigen::MatrixXd& to_basis() const { return to_basis_; }
+  /// Of the coefficients, in rows of unit variance.
   Eigen::MatrixXd covariance() const { return to_basis_ * to_basis_.transpose(); }
   /// Sum of squares left, prior values included, and degrees of freedom of the fitted rows.
   double squares() const { return residual_.squaredNorm() + prior_residual_.squaredNorm(); }

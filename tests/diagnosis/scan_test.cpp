@@ -127,6 +127,70 @@ TEST(Scan, CosinesAreThoseBetweenADirectionAndWhatEachCandidateMakesOfIt) {
   }
 }
 
+TEST(Scan, InPlaceOfAPartIsTheSameAsBesideTheModelWithoutIt) {
+  RandomStream stream{84, 10};
+  const ScannedArm tested = scanned_arm(stream, 40);
+  const Eigen::Index all = tested.field.declared.cols(), taken = all - 2;  // the offset of a joint
+  std::vector<Eigen::Index> others;
+  for (Eigen::Index i = 0; i < all; ++i)
+    if (i != taken) others.push_back(i);
+  const RowMatrix without = tested.field.declared(Eigen::all, others);
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(without.cols());
+  const Projection whole = projection_of(tested.field),
+                   rest({without, without, none, none}, tested.field.residual, tested.field.residual);
+  const ModelPart part = part_of_model(whole.to_basis().row(taken), whole.changes().segment(taken, 1));
+  ASSERT_EQ(part.explained.size(), 1);
+  const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, whole),
+      beside(tested.columns, tested.naming_cost_nats, tested.field, rest);
+  const Scan::InPlace found = scan.in_place_of(part);
+  const std::vector<Score> scores = beside.scores();
+  const RowMatrix column = tested.field.declared.col(taken);
+  const Projection::Trial trial = rest.trial(column, column);
+  const RowMatrix direction = trial.fitted * trial.coefficients;
+  const std::vector<double> cosines =
+      beside.cosines(tested.columns.transposed_times(tested.field, direction), direction.squaredNorm());
+  EXPECT_NEAR(part.explained.squaredNorm(), trial.drop, 1e-6 * trial.drop);
+  int alike = 0;
+  for (std::size_t i = 0; i < scores.size(); ++i) {
+    EXPECT_NEAR(found.gains_nats[i], scores[i].gain_nats, 1e-5 * (1 + std::abs(scores[i].gain_nats))) << i;
+    EXPECT_NEAR(found.cosines[i], cosines[i], 1e-5) << i;
+    alike += found.cosines[i] > 0.9;
+  }
+  EXPECT_GE(alike, 1) << "the joint's offset itself";
+}
+
+TEST(Scan, RivalsAreNoMoreAlikeForErrorsThatPosesShare) {
+  RandomStream stream{84, 11};
+  const ScannedArm tested = scanned_arm(stream, 40);
+  const Eigen::Index declared = tested.field.declared.cols(), rows = tested.field.rows();
+  ModelColumns columns{beside(tested.field.declared, RowMatrix::Identity(rows, rows)), {}, {}, {}};
+  columns.validation = columns.fitted;
+  columns.offset = Eigen::VectorXd::Zero(declared + rows);
+  columns.precision = Eigen::VectorXd::Zero(declared + rows);
+  columns.precision.tail(rows).setConstant(0.5);  // the larger part of the scatter
+  const Projection model(columns, tested.field.residual, tested.field.residual);
+  const Scan scan(tested.columns, tested.naming_cost_nats, tested.field, model);
+  std::vector<Candidate> candidates(tested.naming_cost_nats.size());
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i].effect = {.kind = "gain", .joint = static_cast<int>(i)};  // each of its own law
+    candidates[i].naming_cost_nats = tested.naming_cost_nats[i];
+  }
+  constexpr std::size_t kNamed = 12;
+  const RowMatrix named = tested.columns.dense(tested.field, kNamed);
+  const Projection::Trial trial = model.trial(named, named);
+  const auto products = tested.columns.transposed_times(tested.field, trial.columns());
+  RowMatrix direction(rows + model.prior_basis().rows(), 1);
+  direction << trial.fitted * trial.coefficients, trial.prior * trial.coefficients;
+  for (const Rival& rival : rivals_of(kNamed, trial, products, candidates, scan.scores(), scan)) {
+    const RowMatrix dense = tested.columns.dense(tested.field, static_cast<std::size_t>(rival.effect.joint));
+    const Projection::Trial other = model.trial(dense, dense);
+    RowMatrix left(direction.rows(), other.rank);
+    left << other.fitted * other.to_basis, other.prior * other.to_basis;
+    EXPECT_NEAR(rival.cosine, (left.transpose() * direction).norm() / direction.norm(), 1e-5);
+    EXPECT_LT(rival.cosine, 0.999999);
+  }
+}
+
 /// Of 200 draws of noise in place of the residual, each fitted by a model: how many of the best candidates' p-values
 /// are 0.05 or less, and their mean.
 struct PValues {
