@@ -61,6 +61,24 @@ const GroupWords& group_words(CauseGroup group) {
   return *found;
 }
 
+/// One text after another, no sentence twice.
+std::string joined_sentences(const std::vector<std::string_view>& texts) {
+  constexpr std::string_view kBetween = ". ";
+  std::vector<std::string_view> said;
+  std::string text;
+  for (std::string_view left : texts) {
+    while (!left.empty()) {
+      const std::size_t end = left.find(kBetween);
+      const std::string_view sentence = left.substr(0, end == std::string_view::npos ? end : end + 1);
+      left.remove_prefix(end == std::string_view::npos ? left.size() : end + kBetween.size());
+      if (std::ranges::find(said, sentence) != said.end()) continue;
+      said.push_back(sentence);
+      text += (text.empty() ? "" : " ") + std::string(sentence);
+    }
+  }
+  return text;
+}
+
 /// Whether causes of the group are the whole arm's, whichever joint an effect is of.
 bool is_of_arm(CauseGroup group) {
   return group == CauseGroup::elasticity || group == CauseGroup::heat || group == CauseGroup::instrument;
@@ -105,9 +123,7 @@ std::string advice_on(const ErrorCause& cause, const CorrectedRobot& robot) {
     if (std::ranges::find(all, one) == all.end()) all.push_back(one);
   }
   if (all.empty()) return std::string(group_words(cause.group).advice);
-  std::string text;
-  for (const std::string_view one : all) text += (text.empty() ? "" : " ") + std::string(one);
-  return text;
+  return joined_sentences(all);
 }
 
 }  // namespace demecal::inline explanations

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <iterator>
-#include <limits>
+#include <set>
 #include <utility>
 
 #include "data/data_set.hpp"
@@ -74,6 +74,59 @@ bool is_within_one_standard_error(const SquaredErrors_mm2& errors, const Squared
   return mean <= std::sqrt(variance / count);
 }
 
+struct JudgedSet {
+  ExplanationFront::Point point;
+  SquaredErrors_mm2 errors;
+};
+
+/// The best set for every number of causes by its errors at the judging poses.
+class JudgedSets {
+ public:
+  using ErrorsOfSet = std::function<SquaredErrors_mm2(const std::vector<std::size_t>&)>;
+  explicit JudgedSets(ErrorsOfSet errors_of) : errors_of_(std::move(errors_of)) {}
+
+  /// Of sets of as many causes the best stays, or the last where nothing judges.
+  void offer(const std::vector<EffectSet>& sets, bool last) {
+    std::vector<SquaredErrors_mm2> errors(sets.size());
+    in_pieces(sets.size(), [&](std::size_t i) { errors[i] = errors_of_(sets[i].effects); });
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      JudgedSet one{{sets[i].effects, sets[i].causes, std::sqrt(mean(errors[i]))}, std::move(errors[i])};
+      const auto place = std::ranges::lower_bound(all_, one.point.causes, {}, causes_of_set);
+      if (place == all_.end() || place->point.causes != one.point.causes)
+        all_.insert(place, std::move(one));
+      else if (last || one.point.validation_rms_mm < place->point.validation_rms_mm)
+        *place = std::move(one);
+    }
+  }
+
+  /// What each set is without one of its causes. Sets were searched for by the fitted poses, in which some causes
+  /// hardly show: such a set may judge better than what was found of as many causes.
+  void offer_without_causes(const ExplanationProblem& problem) {
+    constexpr std::size_t kMostCauses = 12;  ///< more than a person looks at are left as they are
+    for (std::size_t count = kMostCauses; count > 0; --count) {
+      const auto from = std::ranges::lower_bound(all_, count, {}, causes_of_set);
+      if (from == all_.end() || from->point.causes != count) continue;
+      const auto cause_of_effect = [&](std::size_t effect) { return problem.cause[effect]; };
+      std::set<std::size_t> causes;
+      for (const std::size_t effect : from->point.set) causes.insert(cause_of_effect(effect));
+      std::vector<EffectSet> smaller;
+      for (const std::size_t cause : causes) {
+        smaller.push_back({.effects = from->point.set, .causes = count - 1});
+        std::erase_if(smaller.back().effects, [&](std::size_t effect) { return cause_of_effect(effect) == cause; });
+      }
+      offer(smaller, false);
+    }
+  }
+
+  const std::vector<JudgedSet>& all() const { return all_; }
+
+ private:
+  static std::size_t causes_of_set(const JudgedSet& one) { return one.point.causes; }
+
+  ErrorsOfSet errors_of_;
+  std::vector<JudgedSet> all_;  ///< by number of causes
+};
+
 /// Whether a model's errors are hardly larger than the best ones, and by less than one standard error. Of more causes
 /// than a person acts on, a further one has to earn more.
 bool are_nearly_as_small(const SquaredErrors_mm2& errors, std::size_t causes, const SquaredErrors_mm2& best) {
@@ -104,28 +157,22 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
                               std::vector<PricedEffect> effects, const std::vector<EffectSet>& sets) {
   ExplanationFront front;
   front.effects = std::move(effects);
-  const std::vector<std::size_t> judging = judging_poses(problem, model.robot);
-  std::vector<SquaredErrors_mm2> all(sets.size()), errors;
-  in_pieces(sets.size(),
-            [&](std::size_t i) { all[i] = squared_errors(problem.data, judging, models.with(sets[i].effects).robot); });
-  for (std::size_t i = 0; i < sets.size(); ++i) {
-    const ExplanationFront::Point point{sets[i].effects, sets[i].causes, std::sqrt(mean(all[i]))};
-    if (front.points.empty() || front.points.back().causes != point.causes) {
-      front.points.push_back(point);
-      errors.push_back(std::move(all[i]));
-    } else if (problem.validation.empty() || point.validation_rms_mm < front.points.back().validation_rms_mm) {
-      front.points.back() = point;
-      errors.back() = std::move(all[i]);
-    }
-  }
   if (sets.empty()) return front;
+  const std::vector<std::size_t> judging = judging_poses(problem, model.robot);
+  JudgedSets judged([&](const std::vector<std::size_t>& set) {
+    return squared_errors(problem.data, judging, models.with(set).robot);
+  });
+  judged.offer(sets, problem.validation.empty());
+  if (!problem.validation.empty()) judged.offer_without_causes(models.problem());
+  for (const JudgedSet& one : judged.all()) front.points.push_back(one.point);
   const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
   front.best = static_cast<std::size_t>(best - front.points.begin());
   if (problem.validation.empty()) front.best = front.points.size() - 1;
   front.chosen = front.best;
   if (problem.validation.empty()) return front;
+  const auto errors = [&](std::size_t point) -> const SquaredErrors_mm2& { return judged.all()[point].errors; };
   front.chosen = is_told_by_all(model, front) ? 1 : 0;
-  while (!are_nearly_as_small(errors[front.chosen], front.points[front.chosen].causes, errors[front.best]))
+  while (!are_nearly_as_small(errors(front.chosen), front.points[front.chosen].causes, errors(front.best)))
     ++front.chosen;
   return front;
 }
@@ -198,7 +245,7 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
     budget.causes[i] = {.cause = causes[i],
                         .without_mm = std::sqrt(without_mm2),
                         .with_mm = std::sqrt(with_mm2),
-                        .share = (without_mm2 - with_mm2) / bare_mm2,
+                        .share = std::clamp((without_mm2 - with_mm2) / bare_mm2, 0.0, 1.0),
                         .interval_mm = fall_interval(without, with, own)};
   });
   std::ranges::stable_sort(budget.causes, std::greater{}, &CauseCost::without_mm);

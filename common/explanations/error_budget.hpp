@@ -21,7 +21,7 @@ struct CauseCost {
   ErrorCause cause;
   double without_mm = 0.0;  ///< rms tool error of the judging poses with its effects left out and all else fitted again
   double with_mm = 0.0;     ///< the same of the whole model
-  /// What it alone takes from the mean square, over the mean square without any cause.
+  /// What it alone takes from the mean square, over the mean square without any cause; 0 to 1.
   double share = 0.0;
   /// 95 % of sqrt(without_mm^2 - with_mm^2) when the judging poses are drawn anew; 0 where that is negative.
   std::array<double, 2> interval_mm{};
@@ -42,11 +42,12 @@ struct ExplanationFront {
 
 /// Judges sets of the effects by the errors they leave at problem.validation (where there are no such poses at those
 /// that were fitted, and the most causes are chosen), poses in gross error by `model` left out: a model of every set to
-/// first order about `model`. `sets` are by number of causes, from none; of several of a number the one of the least
-/// error stands for it (without poses that judge the last). Of them the one of the fewest causes is chosen
-/// whose error is at most 1.02 times the least and whose mean square is within one standard error of it (paired), or
-/// that of ten causes or more whose error is at most 1.05 times the least. Not none where `model` has causes and the
-/// next set errs less: that there is a cause the loop's tests have said, and what is left to choose is how many.
+/// first order about `model`. `sets` are by number of causes, from none; of several of a number, and of what sets of
+/// one cause more are without any of theirs, the one of the least error stands for it (without poses that judge the
+/// last). Of them the one of the fewest causes is chosen whose error is at most 1.02 times the least and whose mean
+/// square is within one standard error of it (paired), or that of ten causes or more whose error is at most 1.05 times
+/// the least. Not none where `model` has causes and the next set errs less: that there is a cause the loop's tests have
+/// said, and what is left to choose is how many.
 ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
                               std::vector<PricedEffect> effects, const std::vector<EffectSet>& sets);
 

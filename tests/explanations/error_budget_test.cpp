@@ -52,6 +52,17 @@ TEST(Causes, HaveAWordAndAnAdviceForEveryKindOfTheCatalogue) {
   EXPECT_EQ(words.size(), 11U);
 }
 
+TEST(Causes, AreAdvisedOnInNoSentenceTwice) {
+  CorrectedRobot robot;
+  robot.effects = {effect("gear_harmonic", 1), effect("gain", 1), effect("eccentricity", 1), effect("coupling", 1)};
+  for (Effect& one : robot.effects) one.values = {1.0, 1.0};
+  robot.effects[0].settings = {{"ratio", 2.0}};
+  robot.effects[3].settings = {{"from", 2.0}};
+  const std::string advice = advice_on(causes_of(robot).front(), robot);
+  const std::string first = advice.substr(0, advice.find(". ") + 1);
+  EXPECT_EQ(advice.find(first, first.size()), std::string::npos) << advice;
+}
+
 /// An arm whose joint 2 has lost motion, and whose joint 3 gives way a little: found, and judged.
 class TwoCauses : public testing::Test {
  protected:
@@ -89,6 +100,21 @@ SetModels models_about(const DiagnosisProblem& problem, const DiagnosedModel& mo
   std::vector<PricedEffect> effects;
   for (const Effect& one : model.robot.effects) effects.push_back({one, 0.0});
   return {problem, model, effects};
+}
+
+TEST_F(TwoCauses, OffersWhatASetIsWithoutTheCauseThatIsMissedLeast) {
+  const SetModels models = models_about(*problem_, model_);
+  const std::vector<PricedEffect> effects{{model_.robot.effects[0], 0.0}, {model_.robot.effects[1], 0.0}};
+  const auto front_of_sets = [&](const std::vector<EffectSet>& sets) {
+    return judged_front(*problem_, model_, models, effects, sets);
+  };
+  const ExplanationFront told = front_of_sets({{{}, 0}, {{0}, 1}, {{1}, 1}, {{0, 1}, 2}});
+  for (const std::size_t single : {std::size_t{0}, std::size_t{1}}) {
+    const ExplanationFront found = front_of_sets({{{}, 0}, {{single}, 1}, {{0, 1}, 2}});
+    ASSERT_EQ(found.points.size(), 3U);
+    EXPECT_EQ(found.points[1].set, told.points[1].set);
+    EXPECT_EQ(found.points[1].validation_rms_mm, told.points[1].validation_rms_mm);
+  }
 }
 
 TEST_F(TwoCauses, AModelWithoutAnEffectIsWhatAFitWithoutItGives) {
