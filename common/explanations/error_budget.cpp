@@ -86,22 +86,12 @@ class JudgedSets {
   explicit JudgedSets(ErrorsOfSet errors_of) : errors_of_(std::move(errors_of)) {}
 
   /// Of sets of as many causes the best stays, or the last where nothing judges.
-  void offer(const std::vector<EffectSet>& sets, bool last) {
-    std::vector<SquaredErrors_mm2> errors(sets.size());
-    in_pieces(sets.size(), [&](std::size_t i) { errors[i] = errors_of_(sets[i].effects); });
-    for (std::size_t i = 0; i < sets.size(); ++i) {
-      JudgedSet one{{sets[i].effects, sets[i].causes, std::sqrt(mean(errors[i]))}, std::move(errors[i])};
-      const auto place = std::ranges::lower_bound(all_, one.point.causes, {}, causes_of_set);
-      if (place == all_.end() || place->point.causes != one.point.causes)
-        all_.insert(place, std::move(one));
-      else if (last || one.point.validation_rms_mm < place->point.validation_rms_mm)
-        *place = std::move(one);
-    }
-  }
+  void offer(const std::vector<EffectSet>& sets, bool last) { offer(sets, last, 1.0); }
 
   /// What each set is without one of its causes. Sets were searched for by the fitted poses, in which some causes
   /// hardly show: such a set may judge better than what was found of as many causes.
   void offer_without_causes(const ExplanationProblem& problem) {
+    constexpr double kFarBetter = 0.8;       ///< ratio of rms errors
     constexpr std::size_t kMostCauses = 12;  ///< more than a person looks at are left as they are
     for (std::size_t count = kMostCauses; count > 0; --count) {
       const auto from = std::ranges::lower_bound(all_, count, {}, causes_of_set);
@@ -114,7 +104,7 @@ class JudgedSets {
         smaller.push_back({.effects = from->point.set, .causes = count - 1});
         std::erase_if(smaller.back().effects, [&](std::size_t effect) { return cause_of_effect(effect) == cause; });
       }
-      offer(smaller, false);
+      offer(smaller, false, kFarBetter);
     }
   }
 
@@ -122,6 +112,25 @@ class JudgedSets {
 
  private:
   static std::size_t causes_of_set(const JudgedSet& one) { return one.point.causes; }
+
+  /// The same; what stands there gives way to less than `share` of its error.
+  void offer(const std::vector<EffectSet>& sets, bool last, double share) {
+    std::vector<SquaredErrors_mm2> errors(sets.size());
+    in_pieces(sets.size(), [&](std::size_t i) { errors[i] = errors_of_(sets[i].effects); });
+    for (std::size_t i = 0; i < sets.size(); ++i) {
+      JudgedSet one{{sets[i].effects, sets[i].causes, std::sqrt(mean(errors[i]))}, std::move(errors[i])};
+      const auto place = std::ranges::lower_bound(all_, one.point.causes, {}, causes_of_set);
+      const bool is_new = place == all_.end() || place->point.causes != one.point.causes;
+      const bool is_worth_it = share == 1.0 || place == all_.begin() ||
+                               one.point.validation_rms_mm < std::prev(place)->point.validation_rms_mm;
+      if (is_new && is_worth_it)
+        all_.insert(place, std::move(one));
+      else if (is_new)
+        continue;
+      else if (last || one.point.validation_rms_mm < share * place->point.validation_rms_mm)
+        *place = std::move(one);
+    }
+  }
 
   ErrorsOfSet errors_of_;
   std::vector<JudgedSet> all_;  ///< by number of causes
