@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 #include "data/data_set.hpp"
 #include "effects/arm_state.hpp"
@@ -15,13 +16,48 @@
 namespace demecal::inline programs {
 namespace {
 
+bool outweighs_model(const CorrectedTarget& corrected) {
+  constexpr double kWorthSaying_m = 5e-5;
+  if (corrected.unknown_side_m <= kWorthSaying_m) return false;
+  const double half_m = 0.5 * corrected.unknown_side_m;
+  return !corrected.error95_m || half_m > *corrected.error95_m - half_m;
+}
+
+}  // namespace
+
 bool depends_on_sides(const CommandModel& model) {
   return std::ranges::any_of(model.robot.effects, [&](const Effect& effect) {
     return law_of(effect).needs(effect, model.robot.described).approach;
   });
 }
 
-}  // namespace
+TargetVisits corrected_by_sides(
+    const Program& program, const CommandModel& model, const Circumstances& circumstances,
+    const std::function<CorrectedTarget(std::size_t, const std::vector<TargetVisit>&)>& correct,
+    std::vector<CorrectedTarget>& corrected, std::vector<bool>& turned) {
+  std::vector<AddedToJoints> added = nothing_added(program, model);
+  TargetVisits visits;
+  for (bool changed = true; changed;) {
+    const bool first = visits.empty();
+    TargetVisits followed(program.targets.size());
+    for (TargetVisit& visit : followed_motions(program, model, circumstances, added))
+      followed[visit.target].push_back(std::move(visit));
+    changed = false;
+    for (std::size_t i = 0; i < followed.size(); ++i) {
+      if (!first && std::ranges::equal(followed[i], visits[i], {}, &TargetVisit::approach, &TargetVisit::approach))
+        continue;
+      changed = true;
+      turned[i] = !first;
+      corrected[i] = correct(i, followed[i]);
+      if (corrected[i].is_uncorrected()) continue;
+      const JointVector by = corrected[i].command - corrected[i].nominal;
+      first ? static_cast<void>(added[i] = {by, by}) : added[i].take_in(by);  // what grows only comes to an end
+    }
+    visits = std::move(followed);
+    if (!depends_on_sides(model)) return visits;
+  }
+  return visits;
+}
 
 double unknown_side_m(const CommandModel& model, const CorrectedTarget& corrected) {
   if (!depends_on_sides(model)) return 0.0;
@@ -44,6 +80,12 @@ double unknown_side_m(const CommandModel& model, const CorrectedTarget& correcte
     most = std::max(most, sum.norm());
   }
   return most;
+}
+
+void note_unknown_side(const Target& target, const CorrectedTarget& corrected, UnknownSides& sides) {
+  if (!outweighs_model(corrected)) return;
+  sides.targets.push_back(&target);
+  sides.most_m = std::max(sides.most_m, corrected.unknown_side_m);
 }
 
 std::string unknown_side_sentence(const Program& program, const UnknownSides& sides, const std::string& why) {

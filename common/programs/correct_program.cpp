@@ -241,21 +241,6 @@ std::size_t line_at(std::string_view text, const Program& program, std::size_t o
   return 1 + static_cast<std::size_t>(std::ranges::count(before, '\n'));
 }
 
-/// Whether what the side may leave, half of what depends on it, is more than the radius that the model states without
-/// it: a smaller part of the predicted error is in that figure, and needs no warning.
-bool outweighs_model(const CorrectedTarget& corrected) {
-  constexpr double kWorthSaying_m = 5e-5;
-  if (corrected.unknown_side_m <= kWorthSaying_m) return false;
-  const double half_m = 0.5 * corrected.unknown_side_m;
-  return !corrected.error95_m || half_m > *corrected.error95_m - half_m;
-}
-
-void note_unknown_side(const Target& target, const CorrectedTarget& corrected, UnknownSides& sides) {
-  if (!outweighs_model(corrected)) return;
-  sides.targets.push_back(&target);
-  sides.most_m = std::max(sides.most_m, corrected.unknown_side_m);
-}
-
 }  // namespace
 
 CorrectedProgram correct_program(std::string_view text, Program program, const CommandModel& model,
@@ -271,21 +256,24 @@ CorrectedProgram correct_program(std::string_view text, Program program, const C
   for (const std::vector<Remark>* remarks : {&result.program.uncorrected, &result.program.remarks})
     result.warnings.insert(result.warnings.end(), remarks->begin(), remarks->end());
   result.targets.resize(result.program.targets.size());
-  std::vector<std::vector<TargetVisit>> visits(result.program.targets.size());
-  for (TargetVisit& visit : followed_motions(result.program, model, with_tool))
-    visits[visit.target].push_back(std::move(visit));
-  UnknownSides unknown, differing;
+  std::vector<bool> turned(result.targets.size());
   const auto line = [&](std::size_t offset) { return line_at(text, result.program, offset); };
+  const auto correct = [&](std::size_t target, const std::vector<TargetVisit>& visits) {
+    return corrector.correct(result.program.targets[target], visits, line);
+  };
+  const TargetVisits visits = corrected_by_sides(result.program, model, with_tool, correct, result.targets, turned);
+  UnknownSides unknown, differing, turning;
   for (std::size_t i = 0; i < visits.size(); ++i) {
     const Target& target = result.program.targets[i];
-    result.targets[i] = corrector.correct(target, visits[i], line);
-    note_unknown_side(target, result.targets[i], visits[i].front().differing_sides ? differing : unknown);
+    const bool differs = visits[i].front().differing_sides;
+    note_unknown_side(target, result.targets[i], turned[i] ? turning : differs ? differing : unknown);
     for (std::string& sentence : warnings_of(result.targets[i], model)) {
       result.warnings.push_back({target.place, target.name, std::move(sentence)});
     }
   }
   for (std::string& note : corrector.notes_of_tools()) result.warnings.push_back({kWholeProgram, "", std::move(note)});
-  for (const auto& [sides, why] : {std::pair{&unknown, "is not told"}, {&differing, "depends on the way there"}}) {
+  for (const auto& [sides, why] :
+       {std::pair{&unknown, "is not told"}, {&differing, "depends on the way there"}, {&turning, kTurnedBackWords}}) {
     if (sides->targets.empty()) continue;
     result.warnings.push_back({kWholeProgram, "", unknown_side_sentence(result.program, *sides, why)});
   }

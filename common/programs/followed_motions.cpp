@@ -24,7 +24,8 @@ namespace {
 /// What is known of the arm behind a motion.
 struct ArmKnowledge {
   std::optional<JointVector> joints{};
-  std::string words{};  ///< that state their configuration
+  std::string words{};    ///< that state their configuration
+  AddedToJoints added{};  ///< by their correction
   ApproachSigns signs{};
   bool about = false;  ///< it is near these joints: they tell its posture, and no side of the next motion
   bool operator==(const ArmKnowledge&) const = default;
@@ -32,15 +33,23 @@ struct ArmKnowledge {
 
 constexpr double kMoved = 2e-3;  ///< rad or m: a joint that changes by less has not moved
 
+/// A joint that turns back by more has left the side that it came from. Far above what is rounded where corrected
+/// numbers are written, far below what joints lose.
+constexpr double kTurnsBack = 5e-6;  ///< rad or m
+
 /// Takes the signs of a motion to these joints, and that the arm is there.
-void arrive_at(const JointVector& joints, const std::string& words, ArmKnowledge& arm) {
+void arrive_at(const JointVector& joints, const AddedToJoints& added, const std::string& words, ArmKnowledge& arm) {
   const bool tells_sides = arm.joints && !arm.about;
   if (!tells_sides) arm.signs.setZero();
   for (Eigen::Index i = 0; i < joints.size() && tells_sides; ++i) {
     const double change = joints[i] - (*arm.joints)[i];
     if (std::abs(change) >= kMoved) arm.signs[i] = change > 0.0 ? 1.0 : -1.0;
+    const double least = change + added.least[i] - arm.added.most[i],
+                 most = change + added.most[i] - arm.added.least[i];
+    if (std::min(arm.signs[i] * least, arm.signs[i] * most) < -kTurnsBack) arm.signs[i] = 0.0;
   }
   arm.joints = joints;
+  arm.added = added;
   arm.words = words;
   arm.about = false;
 }
@@ -56,6 +65,8 @@ void keep_common(const ArmKnowledge& other, ArmKnowledge& arm) {
     arm.joints.reset();
     arm.words.clear();
   }
+  arm.added.take_in(other.added.least);
+  arm.added.take_in(other.added.most);
   arm.about = arm.about || other.about;
   for (Eigen::Index i = 0; i < arm.signs.size(); ++i) {
     if (arm.signs[i] != other.signs[i]) arm.signs[i] = 0.0;
@@ -79,14 +90,17 @@ void merge_found(const Configurations& other, Configurations& found) {
 
 class ArmFollower {
  public:
-  ArmFollower(const Program& program, const CommandModel& model, const Circumstances& circumstances)
+  ArmFollower(const Program& program, const CommandModel& model, const Circumstances& circumstances,
+              const std::vector<AddedToJoints>& added)
       : program_(program),
         model_(model),
         circumstances_(circumstances),
+        added_(added),
         arrivals_(arrivals(program)),
         last_(middle_joints(model)),
         finder_(circumstances.near, middle_joints(model)) {
     nowhere_.signs.setZero(last_.size());
+    nowhere_.added = {JointVector::Zero(last_.size()), JointVector::Zero(last_.size())};
     for (std::size_t i = 0; i < program.targets.size(); ++i) {
       const Target& target = program.targets[i];
       visits_.push_back({.order = target.order, .target = i, .near = target.near_motions.contains(target.order)});
@@ -159,8 +173,9 @@ class ArmFollower {
       const Target& target = program_.targets[visits_[i].target];
       TargetVisit& visit = visits_[i];
       const Configurations found = configurations(target, arm);
-      arm = visit.near ? arrived_near(target, target.near_motions.at(motion), std::move(arm))
-                       : arrived(target, found, std::move(arm));
+      const AddedToJoints& added = added_[visit.target];
+      arm = visit.near ? arrived_near(target, target.near_motions.at(motion), added, std::move(arm))
+                       : arrived(target, found, added, std::move(arm));
       if (first) {
         visit = {visit.order, visit.target, visit.again, visit.near, found, arm.signs};
       } else {
@@ -179,22 +194,24 @@ class ArmFollower {
     }
   }
 
-  ArmKnowledge arrived(const Target& target, const Configurations& found, ArmKnowledge arm) {
+  ArmKnowledge arrived(const Target& target, const Configurations& found, const AddedToJoints& added,
+                       ArmKnowledge arm) {
     const bool known = found.joints.size() == 1 && found.from != JointsFrom::undetermined &&
                        found.contradicted_by.empty() &&
                        !(target.is_pose() && contradictions(target.hint, found.joints.front()) > 0);
     if (!known || !target.not_sent_to.empty()) return nowhere_;
     last_ = found.joints.front();
-    arrive_at(found.joints.front(), target.hint.configuration, arm);
+    arrive_at(found.joints.front(), added, target.hint.configuration, arm);
     if (target.is_pose()) finder_.arrive(arm.joints, arm.words);
     return arm;
   }
 
-  ArmKnowledge arrived_near(Target target, const NearPlace& place, ArmKnowledge arm) {
+  /// A place near a target is told by the target's own numbers, so that its correction shifts both.
+  ArmKnowledge arrived_near(Target target, const NearPlace& place, const AddedToJoints& added, ArmKnowledge arm) {
     target.motion = place.motion;
     const bool told = place.shift_m && target.is_pose() && target.form != OrientationForm::unknown;
     const Eigen::Vector3d shift_m = told ? *place.shift_m : Eigen::Vector3d::Zero();
-    arm = arrived(target, configurations(target, arm, shift_m, place.along_tool), std::move(arm));
+    arm = arrived(target, configurations(target, arm, shift_m, place.along_tool), added, std::move(arm));
     arm.about = arm.about || !told;
     if (arm.about) arm.signs.setZero();
     return arm;
@@ -220,6 +237,7 @@ class ArmFollower {
   const Program& program_;
   const CommandModel& model_;
   const Circumstances& circumstances_;
+  const std::vector<AddedToJoints>& added_;  ///< to each target
   std::map<std::size_t, std::vector<std::size_t>> arrivals_;
   std::map<std::size_t, std::set<std::size_t>> followers_;  ///< the motions behind each
   std::vector<TargetVisit> visits_;
@@ -231,6 +249,16 @@ class ArmFollower {
 };
 
 }  // namespace
+
+void AddedToJoints::take_in(const JointVector& added) {
+  least = least.cwiseMin(added);
+  most = most.cwiseMax(added);
+}
+
+std::vector<AddedToJoints> nothing_added(const Program& program, const CommandModel& model) {
+  const JointVector zero = JointVector::Zero(model.nominal.chain.size());
+  return {program.targets.size(), AddedToJoints{zero, zero}};
+}
 
 std::string unknown_frames(const Target& target, const Circumstances& circumstances) {
   if (target.is_pose() && !target.frames.unknown_frame.empty()) return target.frames.unknown_frame;
@@ -249,8 +277,8 @@ std::set<std::string> untold_tools(const Program& program) {
 }
 
 std::vector<TargetVisit> followed_motions(const Program& program, const CommandModel& model,
-                                          const Circumstances& circumstances) {
-  return ArmFollower(program, model, circumstances).visits();
+                                          const Circumstances& circumstances, const std::vector<AddedToJoints>& added) {
+  return ArmFollower(program, model, circumstances, added).visits();
 }
 
 }  // namespace demecal::inline programs

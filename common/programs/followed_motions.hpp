@@ -27,6 +27,8 @@ struct TargetVisit {
   bool differing_sides = false;  ///< paths differ in known sides
 };
 
+using TargetVisits = std::vector<std::vector<TargetVisit>>;  ///< to each target, the first first
+
 /// What of the target's frames is not known; empty: they are known. A user's tool stands for one that the program does
 /// not tell.
 std::string unknown_frames(const Target& target, const Circumstances& circumstances);
@@ -35,9 +37,22 @@ std::string unknown_frames(const Target& target, const Circumstances& circumstan
 /// tool cannot stand for more than one of them.
 std::set<std::string> untold_tools(const Program& program);
 
+/// What the correction of a target adds to its joints, rad or m: between these.
+struct AddedToJoints {
+  JointVector least, most;
+
+  /// Both grow as far as to hold it.
+  void take_in(const JointVector& added);
+  bool operator==(const AddedToJoints&) const = default;
+};
+
+/// Of each of these targets, nothing.
+std::vector<AddedToJoints> nothing_added(const Program& program, const CommandModel& model);
+
 /// The motions to targets, in the order of the text. A joint comes from the side of its last change of 2 mrad (2 mm) or
-/// more. What is known of the arm ends where arrivals() tells so, and at targets whose joints are not known.
+/// more; from none that is known where what the corrections add turns it against that side. What is known of the arm
+/// ends where arrivals() tells so, and at targets whose joints are not known.
 std::vector<TargetVisit> followed_motions(const Program& program, const CommandModel& model,
-                                          const Circumstances& circumstances);
+                                          const Circumstances& circumstances, const std::vector<AddedToJoints>& added);
 
 }  // namespace demecal::inline programs
