@@ -29,8 +29,8 @@ class KrlFrames {
   void take_points(const std::vector<Target>& targets);
   /// Completes a target that was read, by its name and place.
   void complete(Target& target);
-  /// When all targets are completed: where routines end what is known of the arm, and once which calls of other files'
-  /// routines were taken to leave tool and base as they are.
+  /// When all targets are completed: where routines end what is known of the arm, which loads hold for some motions
+  /// alone, and once which calls of other files' routines were taken to leave tool and base as they are.
   void note_routines(Program& program) const;
 
  private:
@@ -46,7 +46,7 @@ class KrlFrames {
   bool read_routine(const std::string& word, std::size_t begin, std::size_t next, std::size_t line_end);
   bool read_control(const std::string& word, std::size_t end, std::size_t next);
   void read_call(const std::string& word, std::size_t begin, std::size_t end, bool statement);
-  void read_with(const std::string& word, std::size_t statement, std::size_t end, const std::string& what);
+  void read_with(const std::string& word, std::size_t statement, std::size_t end, std::size_t at);
   void read_statement(std::size_t begin, std::size_t end);
   StatedFrames held(std::size_t begin, bool by_pose);
   void read_assignment(bool of_tool, std::size_t begin, std::size_t next);
@@ -70,6 +70,8 @@ class KrlFrames {
     bool of_tool;
   };
   std::vector<With> with_;
+  std::vector<PayloadStatement> loads_;       ///< those that a WITH sets for its motions
+  std::string small_;                         ///< the code in small letters, once a load was read
   bool tool_beside_ = false;                  ///< $IPO_MODE may let it stand beside the robot
   bool root_moved_ = false;                   ///< the program has set $ROBROOT
   std::map<std::size_t, std::string> calls_;  ///< of routines, where they stand

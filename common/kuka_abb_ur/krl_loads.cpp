@@ -39,4 +39,15 @@ std::optional<double> inline_load_kg(std::string_view code, std::size_t at) {
   return load_of_tool(code, declared_load_kg(code, load_name(code, at), "=", "{tool_no "));
 }
 
+std::optional<double> with_load_kg(std::string_view code, std::size_t at) {
+  constexpr std::string_view kOfTool = "sload";
+  const std::size_t sign = std::min(code.find_first_not_of(" \t", at), code.size());
+  if (sign == code.size()) return std::nullopt;
+  if (code[sign] == '.') return changed_load_kg(code, sign + 1);
+  if (code[sign] != '=') return std::nullopt;
+  if (load_name(code, sign + 1) != kOfTool) return stated_load_kg(code, sign + 1);
+  const std::size_t open = code.find_first_not_of(" \t", code.find(kOfTool, sign) + kOfTool.size());
+  return open < code.size() && code[open] == '(' ? load_of_tool(code, number_argument(code, open + 1)) : std::nullopt;
+}
+
 }  // namespace demecal::inline kuka_abb_ur

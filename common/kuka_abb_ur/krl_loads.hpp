@@ -16,5 +16,8 @@ std::optional<double> changed_load_kg(std::string_view code, std::size_t at);
 std::optional<double> selected_load_kg(std::string_view code, std::size_t at);
 /// Behind "FDAT_ACT=": the frame data of an inline form, which name such a tool.
 std::optional<double> inline_load_kg(std::string_view code, std::size_t at);
+/// Behind "$LOAD" in what follows WITH: "={M 5.0}" or the name of a load, ".M=5", or "=SLOAD(3)", which is
+/// LOAD_DATA[3].
+std::optional<double> with_load_kg(std::string_view code, std::size_t at);
 
 }  // namespace demecal::inline kuka_abb_ur

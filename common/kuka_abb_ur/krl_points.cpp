@@ -61,3 +61,4 @@ void KrlFrames::note_routines(Program& program) const {
 }
 
 }  // namespace demecal::inline kuka_abb_ur
+  program.payload_statements.insert(program.payload_statements.end(), loads_.begin(), loads_.end());

@@ -9,11 +9,20 @@
 
 #include "data/text.hpp"
 #include "kuka_abb_ur/krl_frames.hpp"
+#include "kuka_abb_ur/krl_loads.hpp"
 #include "kuka_abb_ur/krl_statements.hpp"
 #include "parsed_programs/frame_flow.hpp"
 #include "parsed_programs/program_text.hpp"
 
 namespace demecal::inline kuka_abb_ur {
+
+namespace {
+
+bool is_spline(const std::string& word) {
+  return word == "spline" || word == "ptp_spline";
+}
+
+}  // namespace
 
 /// One statement, as all are that stand in a line.
 void KrlFrames::read_line(std::size_t begin, std::size_t end) {
@@ -29,7 +38,7 @@ void KrlFrames::read_line(std::size_t begin, std::size_t end) {
   if (read_routine(word, begin, next, end)) return;
   const bool deferred = word == "interrupt" || word == "trigger";
   const std::size_t statement = begin;
-  const bool moves = points_of_krl_motion(word) > 0 || word == "spline";
+  const bool moves = points_of_krl_motion(word) > 0 || is_spline(word);
   bool with = false;
   for (std::size_t at = begin; at < end; ++at) {
     if (!text_.begins_word(at)) continue;
@@ -39,10 +48,10 @@ void KrlFrames::read_line(std::size_t begin, std::size_t end) {
     if (opens && deferred) flow_.call_at_any_time(called);
     if (opens && !deferred) read_call(called, at, word_end, at == statement);
     with = with || (moves && called == "with");
-    if (!with || (called != "$tool" && called != "$base")) {
+    if (!with || (called != "$tool" && called != "$base" && called != "$load")) {
       read_statement(at, word_end);
     } else {
-      read_with(word, statement, end, called);
+      read_with(word, statement, end, at);
     }
     at = word_end - 1;
   }
@@ -50,11 +59,14 @@ void KrlFrames::read_line(std::size_t begin, std::size_t end) {
 }
 
 /// SLIN XP1 WITH $TOOL=..: for this motion alone; SPLINE WITH ..: up to ENDSPLINE.
-void KrlFrames::read_with(const std::string& word, std::size_t statement, std::size_t end, const std::string& what) {
-  const std::string all = word == "spline" ? lower_case(text_.code().substr(end)) : "";
+void KrlFrames::read_with(const std::string& word, std::size_t statement, std::size_t end, std::size_t at) {
+  const std::string what = text_.word_at(at);
+  const std::string all = is_spline(word) ? lower_case(text_.code().substr(end)) : "";
   const std::size_t block = all.find("endspline");
-  const std::size_t stop = word != "spline" ? end : block == std::string::npos ? text_.code().size() : end + block;
-  with_.push_back({statement, stop, what == "$tool"});
+  const std::size_t stop = !is_spline(word) ? end : block == std::string::npos ? text_.code().size() : end + block;
+  if (what != "$load") return with_.push_back({statement, stop, what == "$tool"});
+  if (small_.empty()) small_ = lower_case(text_.code());
+  loads_.push_back({text_.place(at), statement, with_load_kg(small_, text_.word_end(at)), stop});
 }
 
 /// DEF and END, and what is no statement.

@@ -119,6 +119,7 @@ RapidStatements::RapidStatements(const ProgramText& text, Program& program)
   text.for_each_word([&](std::size_t begin, std::size_t end) {
     read_guidance(begin, end);
     const std::string word = text.word_at(begin);
+    if (word == "tload") read_load(begin);
     if (word == "softact") note_compliance(text, begin, "SoftAct", "SoftDeact", program);
     if (word == "fcact") note_compliance(text, begin, "FCAct", "FCDeact", program);
     if (word == "cssact") note_compliance(text, begin, "CSSAct", "CSSDeactMoveL", program);
@@ -178,6 +179,14 @@ void RapidStatements::read_guidance(std::size_t begin, std::size_t end) {
   for (Target& target : program_.targets)
     if (target.begin() > first && target.begin() < last) target.not_sent_to = changes_.guided_sentence(begin, by);
   program_.joints_lost_at.push_back(begin);
+}
+
+/// It is that of the tool and what the tool carries together, while payloads are told without the tool's.
+void RapidStatements::read_load(std::size_t begin) {
+  if (text_.option_sign(begin) == std::string_view::npos) return;
+  const std::size_t first = code_.substr(0, begin).rfind(';') + 1;  // npos + 1: the text's begin
+  program_.payload_statements.push_back(
+      {text_.place(begin), text_.skip_spaces(first), {}, std::min(code_.find(';', begin), code_.size())});
 }
 
 /// Whether the name or the numbers of a target stand there.

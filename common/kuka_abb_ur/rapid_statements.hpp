@@ -47,6 +47,8 @@ class RapidStatements {
   void read_name(std::size_t begin, std::size_t end);
   /// \Corr and \Track: sensors shift the motion of the statement in which they stand.
   void read_guidance(std::size_t begin, std::size_t end);
+  /// \TLoad: a load for the statement's motion alone.
+  void read_load(std::size_t begin);
   void leave_handed_on();
   /// Says that a motion goes to none of the targets.
   void goes_elsewhere(const TextRange& range);

@@ -201,7 +201,8 @@ Program read_program(const Language& language, const ProgramSource& source, cons
   if (arm.positioner > 0) refuse_poses(program);
   for (std::size_t file = 1; file < source.files().size(); ++file)
     program.further.push_back({source.files()[file].name, source.begin(file)});
-  program.payload_statements = payload_statements_of(language, source);
+  for (const PayloadStatement& one : payload_statements_of(language, source)) program.payload_statements.push_back(one);
+  std::ranges::stable_sort(program.payload_statements, {}, &PayloadStatement::begin);
   if (several) leave_ambiguous_names(program);
   return program;
 }

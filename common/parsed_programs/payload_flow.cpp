@@ -42,7 +42,8 @@ class PayloadSearch {
         for (std::size_t& call : way_[i].calls) ++call;
       }
     }
-    for (const PayloadStatement& one : program.payload_statements) statements_[one.begin] = one.kg;
+    for (const PayloadStatement& one : program.payload_statements)
+      one.alone_until > 0 ? alone_.push_back(one) : static_cast<void>(statements_[one.begin] = one.kg);
     for (const Target& target : program.targets) {
       motions_.insert(target.order);
       motions_.insert(target.further_motions.begin(), target.further_motions.end());
@@ -149,10 +150,18 @@ class PayloadSearch {
     };
     for (; motion != motions_.end() && *motion < end; ++motion) {
       take_statements(*motion);
-      merge_carried(carried.reached ? carried : kNotTold, at_motions_[*motion]);
+      merge_carried(at_motion(*motion, carried), at_motions_[*motion]);
     }
     take_statements(end);
     return carried;
+  }
+
+  /// What counts at the motion, `carried` leading there: the innermost statement that holds for it alone.
+  Carried at_motion(std::size_t motion, const Carried& carried) const {
+    const auto holds = [&](const PayloadStatement& one) { return one.begin <= motion && motion < one.alone_until; };
+    const auto alone = std::ranges::find_if(alone_.rbegin(), alone_.rend(), holds);
+    if (alone != alone_.rend()) return {true, alone->kg};
+    return carried.reached ? carried : kNotTold;
   }
 
   void state(Target& target) const {
@@ -171,6 +180,7 @@ class PayloadSearch {
   Program& program_;
   std::vector<Stretch> way_;
   std::map<std::size_t, std::optional<double>> statements_;  ///< by their bytes
+  std::vector<PayloadStatement> alone_;                      ///< those that hold for some motions alone
   std::set<std::size_t> motions_;
   std::vector<std::size_t> routine_;  ///< of each stretch
   std::set<std::size_t> setting_;     ///< routines behind which another payload may be carried

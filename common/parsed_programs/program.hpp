@@ -134,6 +134,8 @@ struct PayloadStatement {
   TextPlace place{};
   std::size_t begin = 0;       ///< its first byte
   std::optional<double> kg{};  ///< nothing where it names a number of the controller's, or computes it
+  /// It holds for motions up to this byte alone, whatever other statements say; 0: from then on.
+  std::size_t alone_until = 0;
 };
 
 struct Program {

@@ -143,7 +143,7 @@ std::string set_payload_sentence(const Program& program, const Circumstances& gi
   const std::string why =
       unread.empty() ? "ways on which it is not set, or set otherwise, lead to them"
                      : statement_lines(program, unread) + (unread.size() == 1 ? " names" : " name") +
-                           " it by a number of the controller's, or compute" + (unread.size() == 1 ? "s" : "") + " it";
+                           " it by a number of the controller's, together with the tool's, or by what is computed";
   const std::string taken =
       given.payload_kg ? number_text(*given.payload_kg) + " kg, of --payload-kg, is" : "an empty hand is";
   return "the payload, which the program sets in " + statement_lines(program, all) + "; of " +
