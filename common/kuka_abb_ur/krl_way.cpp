@@ -108,9 +108,9 @@ bool KrlFrames::read_control(const std::string& word, std::size_t end, std::size
 
 /// NAME(...); where it is a statement, NAME may be a routine that is not in the files.
 void KrlFrames::read_call(const std::string& word, std::size_t begin, std::size_t end, bool statement) {
-  constexpr std::array<std::string_view, 16> kOthers{"bas",    "if",    "while",  "for",    "switch", "case",
+  constexpr std::array<std::string_view, 17> kOthers{"bas",    "if",    "while",  "for",    "switch", "case",
                                                      "until",  "wait",  "pulse",  "cwrite", "cread",  "copen",
-                                                     "cclose", "sread", "swrite", "clear"};
+                                                     "cclose", "sread", "swrite", "clear",  "return"};
   const bool part = begin > 0 && (text_.code()[begin - 1] == '.' || text_.code()[begin - 1] == '#');
   if (part || word.starts_with('$') || std::find(kOthers.begin(), kOthers.end(), word) != kOthers.end()) return;
   if (statement) calls_[begin] = std::string(text_.code().substr(begin, end - begin)) + "()";
