@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -32,7 +33,7 @@ constexpr std::array<std::string_view, 6> kAxisComponents{"a1", "a2", "a3", "a4"
 struct Context {
   bool pose = false;      ///< POS or E6POS
   bool axis = false;      ///< AXIS or E6AXIS
-  bool motion = false;    ///< a command that moves to it
+  bool motion = false;    ///< a command that moves to it, or its name is declared as a pose's
   bool relative = false;  ///< a motion by it rather than to it
   bool frame = false;     ///< a frame, a base or a tool
   bool declared() const { return pose || axis; }
@@ -61,7 +62,8 @@ class KrlReader {
       : text_(input.source, {.comment = ';', .line = '&'}),
         arm_(input.arm),
         controller_(input.controller),
-        rails_(rails_of(input.arm, input.source.file(), "KRL")) {}
+        rails_(rails_of(input.arm, input.source.file(), "KRL")),
+        poses_(krl_declared_poses(text_)) {}
 
   Program read() {
     const std::string_view code = text_.code();
@@ -108,6 +110,7 @@ class KrlReader {
         after = text_.skip_spaces(name_end);
       }
       if (after < at && code[after] == '=') name = std::string(code.substr(begin, name_end - begin));
+      context.motion = context.motion || (!name.empty() && poses_.contains(krl_point_name(name).first));
       begin = end;
     }
     return context;
@@ -118,11 +121,10 @@ class KrlReader {
     std::vector<Component> components;
     for (std::size_t i = 0; i < list.items.size(); ++i) {
       const BracketItem& item = list.items[i];
-      if (item.is_list) {
+      if (item.is_list)
         aggregate(item, context, name, depth + 1);
-        continue;
-      }
-      take_component(item, context, name, i == 0, depth, components);
+      else
+        take_component(item, context, name, i == 0, depth, components);
     }
     make_target(list, context, name, components);
   }
@@ -150,8 +152,7 @@ class KrlReader {
   }
 
   static const Component* find(const std::vector<Component>& components, std::string_view name) {
-    const auto found =
-        std::find_if(components.begin(), components.end(), [&](const Component& part) { return part.name == name; });
+    const auto found = std::ranges::find(components, name, &Component::name);
     return found == components.end() ? nullptr : &*found;
   }
 
@@ -159,9 +160,8 @@ class KrlReader {
   static std::vector<BracketItem> values(const std::vector<Component>& components,
                                          std::span<const std::string_view> names) {
     std::vector<BracketItem> found;
-    for (const std::string_view name : names) {
+    for (const std::string_view name : names)
       if (const Component* part = find(components, name)) found.push_back(part->value);
-    }
     return found;
   }
 
@@ -241,9 +241,8 @@ class KrlReader {
     std::string_view word = text_.code().substr(value.begin, value.size);
     int bits = 0;
     if (word.starts_with('\'') && word.size() > 2) {
-      for (const char digit : word.substr(2)) {
+      for (const char digit : word.substr(2))
         if (digit == '0' || digit == '1') bits = (bits * 2 + (digit - '0')) & 63;
-      }
     } else if (const auto number = cell_at(text_.text(), value.begin, value.size, {});
                number && number->value >= 0.0 && number->value < 64.0) {
       bits = static_cast<int>(number->value);
@@ -260,6 +259,7 @@ class KrlReader {
   const Chain& arm_;
   const ControllerData& controller_;
   int rails_;
+  std::set<std::string> poses_;  ///< that are declared as such
   Program program_;
 };
 

@@ -1,7 +1,11 @@
 // The points of a KRL program: which motions go to them, with which tool and base.
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <iterator>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kuka_abb_ur/krl_frames.hpp"
@@ -9,6 +13,23 @@
 #include "parsed_programs/frame_flow.hpp"
 
 namespace demecal::inline kuka_abb_ur {
+
+std::set<std::string> krl_declared_poses(const ProgramText& text) {
+  constexpr std::array<std::string_view, 11> kTypes{"pos", "e6pos", "axis", "e6axis", "frame", "real",
+                                                    "int", "bool",  "char", "fdat",   "load"};
+  std::set<std::string> poses, others;
+  text.for_each_word([&](std::size_t begin, std::size_t end) {
+    const std::string type = text.word_at(begin);
+    const bool aggregate = text.next(end) == ':';  // {POS: X 1,..}
+    if (aggregate || std::ranges::find(kTypes, type) == kTypes.end()) return;
+    std::set<std::string>& names = type == "pos" || type == "e6pos" ? poses : others;
+    const std::size_t line_end = std::min(text.code().find('\n', end), text.code().size());
+    for (std::size_t at = end; at < line_end; at = next_krl_argument(text.code(), at, line_end))
+      if (text.skip_spaces(at) < line_end) names.insert(text.word_at(at));
+  });
+  std::erase_if(poses, [&](const std::string& name) { return name.empty() || others.contains(name); });
+  return poses;
+}
 
 void KrlFrames::take_points(const std::vector<Target>& targets) {
   for (const Target& target : targets) {
@@ -57,8 +78,8 @@ void KrlFrames::note_routines(Program& program) const {
   program.joints_lost_at.insert(program.joints_lost_at.end(), never_moved_to_.begin(), never_moved_to_.end());
   program.joints_lost_at.insert(program.joints_lost_at.end(), to_one_of_several_.begin(), to_one_of_several_.end());
   flow_.note_arrivals(program);
+  program.payload_statements.insert(program.payload_statements.end(), loads_.begin(), loads_.end());
   if (!believed_.empty()) note_calls_elsewhere(text_, flow_.calls_elsewhere(), calls_, program);
 }
 
 }  // namespace demecal::inline kuka_abb_ur
-  program.payload_statements.insert(program.payload_statements.end(), loads_.begin(), loads_.end());

@@ -131,7 +131,8 @@ void KrlStatements::read_destination(std::size_t motion, std::size_t begin, std:
   const std::string written(text_.trimmed(first, whole ? name_end : stop));
   skip_target(program_, {.name = whole ? written : "", .place = place},
               "the motion goes to '" + written.substr(0, 40) + "', which " +
-                  (whole ? "is no point that this program gives as numbers (--with FILE takes in another of its files)"
+                  (whole ? "is no point that this program gives as numbers and declares (--with FILE takes in another "
+                           "of its files)"
                          : "is computed when the program runs"));
 }
 

@@ -22,6 +22,9 @@ std::size_t next_krl_argument(std::string_view code, std::size_t begin, std::siz
 /// The name of a point in small letters, and its index, "[3]"; no index where there is none or it is computed.
 std::pair<std::string, std::string> krl_point_name(std::string_view name);
 
+/// The names that the program declares as POS or E6POS, and as nothing else, in small letters.
+std::set<std::string> krl_declared_poses(const ProgramText& text);
+
 /// The numbers of a point are those that the robot is sent to where every statement that names it gives it numbers,
 /// moves to it or copies it to another. Motions to anything else are said in the program.
 class KrlStatements {
