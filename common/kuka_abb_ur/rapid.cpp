@@ -46,6 +46,14 @@ bool has_shape(const BracketItem& item, std::span<const std::size_t> sizes) {
   return true;
 }
 
+/// Whether the program computes the list, or one of those in it: names stand where its lists are to be.
+bool is_computed(const ProgramText& text, const BracketItem& item) {
+  const auto is_name = [&](const BracketItem& part) {
+    return !part.is_list && is_expression(text.code().substr(part.begin, part.size));
+  };
+  return item.is_list ? std::ranges::any_of(item.items, is_name) : is_name(item);
+}
+
 class RapidReader {
  public:
   explicit RapidReader(const ReaderInput& input)
@@ -120,17 +128,20 @@ class RapidReader {
       for (const BracketItem& inner : item.items) {
         declared(inner, dimensions - 1, is_robtarget, name + '{' + std::to_string(++index) + '}');
       }
+    } else if (is_computed(text_, item)) {
+      skip_target(program_, {.name = name, .place = text_.place(item.begin)},
+                  "'" + std::string(text_.code().substr(item.begin, item.size)) + "' has names in place of numbers");
     } else if (is_robtarget) {
       if (!has_shape(item, kRobtarget)) {
         text_.fail(item.begin, item.size,
                    "must be a robtarget: [[x, y, z], [q1, q2, q3, q4], [cf1, cf4, cf6, cfx], [six external axes]]");
       }
-      robtarget(item, name, Numbers::required);
+      robtarget(item, name, Numbers::or_expressions);
     } else {
       if (!has_shape(item, kJointtarget)) {
         text_.fail(item.begin, item.size, "must be a jointtarget: [[six joints], [six external axes]]");
       }
-      jointtarget(item, name, Numbers::required);
+      jointtarget(item, name, Numbers::or_expressions);
     }
   }
 

@@ -159,6 +159,9 @@ bool is_word_letter(char letter) {
 }
 
 bool is_expression(std::string_view text) {
+  constexpr std::string_view kSigns = "+-";
+  for (std::size_t at = text.find_first_of(kSigns, 1); at < text.size(); at = text.find_first_of(kSigns, at + 1))
+    if (text[at - 1] != 'e' && text[at - 1] != 'E') return true;  // of no exponent
   return !text.empty() && (is_letter(text.front()) || text.find_first_of("(*/") != std::string_view::npos ||
                            (text.size() > 1 && text.front() == '-' && is_letter(text[1])));
 }

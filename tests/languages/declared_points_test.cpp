@@ -58,6 +58,30 @@ TEST(DeclaredPoints, OfKrlAreFollowedWhereTheyAreGivenNumbersTwice) {
     EXPECT_THAT(target.not_sent_to, HasSubstr("line 7 changes it when the program runs"));
 }
 
+TEST(DeclaredPoints, OfRapidWithNamesInPlaceOfNumbersAreLeftAlone) {
+  const std::string rest = ",[0,1,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n";
+  const auto rapid = [&](const std::string& first) {
+    return read_program(WrittenIn::rapid,
+                        "MODULE M\nCONST robtarget p1:=" + first + "CONST robtarget p2:=[[1,2,3]" + rest +
+                            "PROC main()\nMoveL p1,v9,fine,tool0;\nMoveL p2,v9,fine,tool0;\nENDPROC\nENDMODULE\n",
+                        "p", wrist_arm());
+  };
+  for (const std::string& first : {"[[x,2,3]" + rest, "[[400+0.5,2,3]" + rest, "[pA" + rest,
+                                   std::string("[[1,2,3],[0,1,0,0],[0,0,0,0],eNo];\n")}) {
+    const Program program = rapid(first);
+    EXPECT_THAT(names(program), ElementsAre("p2")) << first;
+    EXPECT_THAT(all_said(program), HasSubstr("2: p1: '")) << first;
+    EXPECT_THAT(all_said(program), HasSubstr("5: ")) << "the motion to it goes to what is not told";
+  }
+  EXPECT_THROW(rapid("[[1,2]" + rest), InputError);
+  EXPECT_THROW(rapid("[[1,2,3..4]" + rest), InputError);
+  const Program joints = read_program(WrittenIn::rapid,
+                                      "MODULE M\nCONST jointtarget j1:=[[10,20,jx,1,60,30],[9E9,9E9,9E9,9E9,9E9,9E9]];"
+                                      "\nPROC main()\nMoveAbsJ j1,v9,fine,tool0;\nENDPROC\nENDMODULE\n",
+                                      "p", wrist_arm());
+  EXPECT_THAT(all_said(joints), HasSubstr("2: j1: 'jx' is no number"));
+}
+
 TEST(Calls, AreNotSeenInReturnOfKrl) {
   const Program program = krl_program(
       "$BASE={X 0,Y 0,Z 9,A 0,B 0,C 0}\nx=f()\nLIN {X 1,Y 2,Z 3,A 4,B 5,C 6}\nEND\nDEFFCT INT f()\nIF y THEN\nRETURN "

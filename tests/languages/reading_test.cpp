@@ -168,8 +168,8 @@ TEST(Rapid, ReadsTargetsWhereverTheyStand) {
 
 TEST(Rapid, NamesTheFault) {
   expect_fault(WrittenIn::rapid, "CONST robtarget p:=[[1,2,3],[1,0,0,0],[0,0,0,0]];", 1, "must be a robtarget");
-  expect_fault(WrittenIn::rapid, "CONST robtarget p:=[[1,2,o],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];", 1,
-               "'o': must be a number");
+  expect_fault(WrittenIn::rapid, "CONST robtarget p:=[[1,2,3o],[1,0,0,0],[0,0,0,0],[0,0,0,0,0,0]];", 1,
+               "'3o': must be a number");
   expect_fault(WrittenIn::rapid, "CONST robtarget p:=[[1,2,3],[1,1,0,0],[0,0,0,0],[0,0,0,0,0,0]];", 1,
                "unit quaternion");
   expect_fault(WrittenIn::rapid, "\nVAR jointtarget p:=[[1,2,3,4,5],[0,0,0,0,0,0]];", 2, "must be a jointtarget");
