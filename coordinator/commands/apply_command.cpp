@@ -18,6 +18,7 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "config/model_file.hpp"
 #include "coordinator/commands.hpp"
+#include "coordinator/corrected_files.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
 #include "data_files/robot_file.hpp"
@@ -98,28 +99,6 @@ std::vector<std::filesystem::path> places_of(const ApplyRequest& request) {
   return places;
 }
 
-/// Throws unless `out` may be written: never a file of the program itself, by whatever name; of other files those that
-/// this command wrote, or any with --force. `original` is what is corrected there.
-void require_writable(const std::filesystem::path& out, const ProgramFile& original,
-                      const std::vector<ProgramFile>& program, bool force) {
-  std::error_code none;
-  for (const ProgramFile& file : program) {
-    if (std::filesystem::equivalent(file.name, out, none) || out == file.name) {
-      throw ArgumentError("--out: " + out.string() +
-                          " is the program itself, which is never overwritten; name another" +
-                          (program.size() > 1 ? " folder" : ""));
-    }
-  }
-  if (force || !std::filesystem::exists(out, none)) return;
-  if (std::filesystem::is_regular_file(out, none)) {
-    const std::string there = read_file(out);
-    if (marked_line(there) || there == original.text) return;
-  }
-  throw ArgumentError("--out: " + out.string() +
-                      " is there already, and not a program that demecal corrected; name "
-                      "another, or give --force to overwrite it");
-}
-
 /// Throws InputError where a file of the program was corrected before.
 void refuse_corrected(const std::vector<ProgramFile>& program) {
   for (const ProgramFile& file : program) {
@@ -186,22 +165,6 @@ const Language& language_asked(const ApplyRequest& request, const std::string& t
   throw InputError(
       {request.program_file, 0}, "",
       "is in no language that can be told; name it with --language (" + listed_languages(&Language::name) + ')');
-}
-
-/// Writes the files of the program, those that changed with a mark.
-void write_corrected(const ProgramSource& source, const CorrectedProgram& corrected, const Language& language,
-                     const std::string& mark, const std::vector<std::filesystem::path>& places) {
-  const std::vector<std::string> texts = corrected_files(source, corrected);
-  std::error_code failed;
-  if (places.size() > 1) std::filesystem::create_directories(places.front().parent_path(), failed);
-  if (failed) {
-    throw ArgumentError("--out: " + places.front().parent_path().string() +
-                        " cannot be made a folder: " + failed.message());
-  }
-  for (std::size_t file = 0; file < places.size(); ++file) {
-    const bool changed = texts[file] != source.files()[file].text;
-    write_file(places[file], changed ? with_mark(texts[file], language, mark) : texts[file]);
-  }
 }
 
 ExitCode run_apply(const ApplyRequest& request) {
