@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <system_error>
 
 #include "coordinator/commands.hpp"
+#include "data/text.hpp"
 #include "languages/languages.hpp"
 #include "yaml/files.hpp"
 
@@ -80,6 +82,24 @@ void write_corrected(const ProgramSource& source, const CorrectedProgram& correc
     const bool changed = texts[file] != source.files()[file].text;
     write_file(places[file], changed ? with_sealed_mark(texts[file], language, mark) : texts[file]);
   }
+}
+
+std::vector<ProgramFile> applications_beside(const ProgramSource& source, const Language& language) {
+  std::vector<ProgramFile> found;
+  std::set<std::filesystem::path> folders;
+  if (language.application_ending.empty()) return found;
+  for (const ProgramFile& file : source.files()) {
+    const std::filesystem::path folder = std::filesystem::path(file.name).parent_path();
+    folders.insert(folder.empty() ? "." : folder);
+  }
+  for (const std::filesystem::path& folder : folders) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none))
+      if (lower_case(entry.path().extension().string()) == '.' + std::string(language.application_ending))
+        found.push_back({(folder == "." ? entry.path().filename() : entry.path()).string(), read_file(entry.path())});
+  }
+  std::ranges::sort(found, {}, &ProgramFile::name);
+  return found;
 }
 
 }  // namespace demecal

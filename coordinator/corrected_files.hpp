@@ -27,4 +27,7 @@ void require_writable(const std::filesystem::path& out, const ProgramFile& origi
 void write_corrected(const ProgramSource& source, const CorrectedProgram& corrected, const Language& language,
                      const std::string& mark, const std::vector<std::filesystem::path>& places);
 
+/// The files in the folders of the program that may describe its application.
+std::vector<ProgramFile> applications_beside(const ProgramSource& source, const Language& language);
+
 }  // namespace demecal

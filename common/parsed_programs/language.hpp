@@ -71,6 +71,9 @@ struct Language {
   bool of_several_files = false;
   /// The ending of the file of the same name that usually belongs to a program of this ending: {"src", "dat"}.
   std::vector<std::pair<std::string_view, std::string_view>> companions{};
+  /// The ending of files that describe an application of such programs and lie beside them:
+  /// ControllerData::applications.
+  std::string_view application_ending{};
   /// A function of its input alone. Throws InputError with file, line, column, value and rule where a target is
   /// malformed; what cannot be known it says in Target::frames or Program::uncorrected, and never guesses. The arm says
   /// how many joints a target has, and which of them slide. Letter case, white space, comments, CR LF and a missing

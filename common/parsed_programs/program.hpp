@@ -258,6 +258,7 @@ struct ControllerData {
   std::map<std::string, Eigen::Isometry3d> frames{};  ///< base from frame, by number or name in small letters
   std::map<std::string, Eigen::Isometry3d> tools{};   ///< flange from tool, likewise
   std::vector<double> pulses_per_deg{};               ///< of each joint (per mm where it slides); empty: unknown
+  std::vector<ProgramFile> applications{};  ///< files beside the program that may describe the application it is of
 
   /// The frame of this key or, where it is not here, one that is unknown since it "is not given in this file". `name`
   /// is how people call it.

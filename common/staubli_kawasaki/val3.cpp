@@ -43,6 +43,7 @@ class Val3Reader {
         arm_(input.arm),
         controller_(input.controller),
         values_(val3_values(text_)),
+        inches_(val3_inches(text_, controller_)),
         statements_(text_) {
     require_six_joints(input.arm, input.source.file(), "VAL3");
     for (const Val3Value& value : values_) {
@@ -64,13 +65,11 @@ class Val3Reader {
       Target target{.name = value.name, .place = text_.place(value.begin)};
       const auto cells = of_joints ? numbers(value, kJointAttributes, joint_units(arm_), target)
                                    : numbers(value, kPointAttributes, kPointUnits, target);
-      const std::string why = statements_.changed(value.name);
+      const std::string why = of_joints || inches_.empty() ? statements_.changed(value.name) : inches_;
       if (cells && !why.empty()) skip_target(program_, target, why);
-      if (!cells || !why.empty()) {
-        for (const Val3Motion& motion : statements_.motions(value.name))
-          program_.joints_lost_at.push_back(motion.begin);
-        continue;
-      }
+      for (const Val3Motion& motion : statements_.motions(value.name))
+        if (!cells || !why.empty()) program_.joints_lost_at.push_back(motion.begin);
+      if (!cells || !why.empty()) continue;
       of_joints ? static_cast<void>(target.joints = *cells) : take_point(value, *cells, target);
       take_motions(value, target);
       program_.targets.push_back(std::move(target));
@@ -121,9 +120,8 @@ class Val3Reader {
   /// Says once which programs may change the data, and are not here.
   void note_calls() {
     std::vector<std::string> names;
-    for (const auto& [begin, name] : statements_.calls_elsewhere()) {
+    for (const auto& [begin, name] : statements_.calls_elsewhere())
       if (std::ranges::find(names, name) == names.end()) names.push_back(name);
-    }
     if (names.empty()) return;
     constexpr std::size_t kNamed = 3;
     std::string list = names.front();
@@ -174,11 +172,10 @@ class Val3Reader {
     std::string missing;
     for (std::size_t i = 0; i < names.size(); ++i) {
       const auto found = value.attributes.find(std::string(names[i]));
-      if (found == value.attributes.end()) {
+      if (found == value.attributes.end())
         missing += (missing.empty() ? "" : ", ") + std::string(names[i]);
-      } else {
+      else
         cells.push_back(text_.number(found->second.begin, found->second.size, units[i]));
-      }
     }
     if (missing.empty()) return cells;
     skip_target(program_, target,
@@ -256,6 +253,7 @@ class Val3Reader {
 
   KnownFrame tool(const std::string& name) const {
     if (name == "flange[0]") return {"flange", Eigen::Isometry3d::Identity(), ""};
+    if (!inches_.empty()) return {name, Eigen::Isometry3d::Identity(), inches_};
     if (!tools_.contains(name)) return controller_.tool(name, "tool " + name);
     const std::string father = word(*tools_.at(name).front(), "fatherId");
     if (!father.empty() && father != "flange[0]") return KnownFrame::computed("tool " + name);
@@ -275,6 +273,7 @@ class Val3Reader {
   const ControllerData& controller_;
   Program program_;
   std::vector<Val3Value> values_;
+  std::string inches_;  ///< why lengths are not millimetres; empty: they are
   Val3Statements statements_;
   std::map<std::string, std::vector<const Val3Value*>> frames_, tools_;
 };
@@ -290,6 +289,7 @@ Language val3_language() {
           .comment_end = " -->",
           .headers = {"<?xml"},
           .of_several_files = true,
+          .application_ending = "pjx",
           .read = [](const ReaderInput& input) { return Val3Reader(input).read(); },
           .write = val3_written_data,
           .written_beside = "pgx",

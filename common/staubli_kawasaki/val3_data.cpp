@@ -1,3 +1,4 @@
+#include "data/text.hpp"
 #include "parsed_programs/program_text.hpp"
 #include "staubli_kawasaki/val3_program.hpp"
 
@@ -126,6 +127,29 @@ std::vector<Val3Code> val3_programs(const ProgramText& text) {
     if (tag.name == "Code") programs.push_back({name, tag.end, end_of_code(text.text(), tag.end), locals});
   });
   return programs;
+}
+
+std::string val3_inches(const ProgramText& text, const ControllerData& controller) {
+  const auto says = [](const ProgramText& application) {
+    bool inches = false;
+    for_each_tag(application, [&](const Tag& tag, std::size_t) {
+      inches = inches || lower_case(attribute_value(application, tag, "millimeterUnit")) == "false";
+    });
+    return inches;
+  };
+  const auto is_of = [&](const std::string& application) {
+    return std::ranges::any_of(text.source().files(), [&](const ProgramFile& file) {
+      const std::size_t folder = file.name.find_last_of("/\\");
+      return application.find(file.name.substr(folder + 1)) != std::string::npos;  // npos + 1: there is no folder
+    });
+  };
+  std::string by = says(text) ? "millimeterUnit=\"false\"" : "";
+  for (const ProgramFile& file : controller.applications) {
+    const ProgramSource alone(file.text, file.name);
+    if (by.empty() && is_of(file.text) && says(ProgramText(alone, {}))) by = "millimeterUnit=\"false\" in " + file.name;
+  }
+  if (by.empty()) return "";
+  return "the application counts in inches (" + by + "), and only millimetres are read: convert it to millimetres";
 }
 
 }  // namespace demecal::inline staubli_kawasaki

@@ -39,6 +39,10 @@ struct Val3Code {
 /// All programs of the text. Throws InputError as val3_values() does.
 std::vector<Val3Code> val3_programs(const ProgramText& text);
 
+/// Why lengths are not millimetres, where the application says so: a file of the program's, or one beside it that names
+/// a file of the program's. Empty: they are.
+std::string val3_inches(const ProgramText& text, const ControllerData& controller);
+
 /// A motion to a point or to joints of the data.
 struct Val3Motion {
   std::size_t begin = 0;  ///< of the motion in the text

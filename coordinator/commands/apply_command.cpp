@@ -178,7 +178,9 @@ ExitCode run_apply(const ApplyRequest& request) {
   const CommandModel model = command_model_of(calibrated, request);
   refuse_corrected(source.files());
   const Language& language = language_asked(request, source.files().front().text);
-  Program program = read_program(language, source, model.nominal.chain, controller_data(request, model.nominal));
+  ControllerData controller = controller_data(request, model.nominal);
+  controller.applications = applications_beside(source, language);
+  Program program = read_program(language, source, model.nominal.chain, controller);
   require_program(language, source, program);
   const CommandModel own_tool = to_command_model(calibrated);
   CorrectedProgram corrected = correct_program(source.text(), std::move(program), model,
