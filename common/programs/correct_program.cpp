@@ -71,6 +71,9 @@ class Corrector {
       if (corrected.error95_m) *corrected.error95_m += 0.5 * corrected.unknown_side_m;
     }
     corrected.texts = cell_texts(target, corrected);
+    constexpr double kNegligible_m = 5e-6;
+    const double rounded_m = rounding_m(target, model_for(target), corrected);
+    if (corrected.error95_m && rounded_m > kNegligible_m) *corrected.error95_m += rounded_m;
     return corrected;
   }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/inverse.hpp"
 #include "kinematics/units.hpp"
@@ -162,6 +163,24 @@ std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget&
       numbers_of(in_frame.linear() * tool_axes(target), target.form, inside(target.orientation));
   for (std::size_t i = 0; i < numbers.size(); ++i) add(target.orientation[i], numbers[i]);
   return texts;
+}
+
+double rounding_m(const Target& target, const CommandModel& model, const CorrectedTarget& corrected) {
+  const auto written = [&](const Cell& cell, std::size_t text) {
+    const auto number = parse_number(corrected.texts[text]);
+    return number ? *number * cell.unit : cell.inside();
+  };
+  if (corrected.texts.empty() || corrected.command == corrected.nominal) return 0.0;
+  if (target.is_pose()) {
+    Eigen::Vector3d in_frame = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < target.position.size(); ++i)
+      in_frame[static_cast<Eigen::Index>(i)] = written(target.position[i], i);
+    return (target.frames.base_from_frame * in_frame - corrected.command_tool.translation()).norm();
+  }
+  JointVector joints = corrected.command;
+  for (std::size_t i = 0; i < target.joints.size(); ++i)
+    joints[target.held() + static_cast<Eigen::Index>(i)] = written(target.joints[i], i);
+  return (model.nominal_tool(joints).translation() - corrected.command_tool.translation()).norm();
 }
 
 }  // namespace demecal::inline programs

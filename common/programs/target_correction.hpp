@@ -44,7 +44,7 @@ struct CorrectedTarget {
   double left_m = 0.0;     ///< of the position's correction: what is not determined, and so not made
   double residual_m = 0.0, residual_rad = 0.0;  ///< of what was to be corrected, what the model predicts to be left
   /// Holds the real tool point about where the program sends it 95 % of the time: what is known to be left of its error
-  /// is added.
+  /// is added, that of rounded numbers too where it is more than 0.005 mm.
   std::optional<double> error95_m{};
   std::vector<std::string> widened_by{};  ///< why that radius is larger than where the arm was measured
   /// How far apart the real tool point may stand by the sides of approach that are not known; half is in error95_m.
@@ -73,6 +73,9 @@ CorrectedTarget correct_target(const Target& target, const CommandModel& model, 
 
 /// The texts of a corrected target's cells.
 std::vector<std::string> cell_texts(const Target& target, const CorrectedTarget& corrected);
+
+/// How far the tool point is off where the cells hold these texts in place of the exact numbers, m.
+double rounding_m(const Target& target, const CommandModel& model, const CorrectedTarget& corrected);
 
 /// A correction of position (m) or of orientation (rad), as far as it should be made.
 struct DeterminedPart {
