@@ -228,9 +228,12 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
   const DeclaredModel base_and_tool{.registration = true, .tool = model.declared.tool};
   const CorrectedRobot after =
       run.refit_base ? refitted(data, {.registration = true, .tool = true}, model.robot) : model.robot;
-  const std::optional<CorrectedRobot> before = refitted_if_told(data, base_and_tool, nominal_robot(data));
   const std::vector<AttainedPose> poses = attained_poses(data, rows, after);
   if (poses.empty()) throw InputError({data.file, 0}, "", "holds neither positions nor lengths: nothing can be judged");
+  // Base and tool that are fitted to three positions bring the arm to all of them, however it errs.
+  const bool told = !placing_poses(data).empty() || poses.size() >= kFewestPlacingPoses;
+  const std::optional<CorrectedRobot> before =
+      told ? refitted_if_told(data, base_and_tool, nominal_robot(data)) : std::nullopt;
   if (before) certificate.before = errors_of(*before, data, rows);
   certificate.after = errors_of(after, data, rows);
   certificate.before_words =

@@ -72,14 +72,16 @@ TEST(Certificate, FitsNoBaseToThePosesThatItJudges) {
   EXPECT_FALSE(remarks_on(refitted, "fitted to the judged poses themselves"));
 }
 
-TEST(Certificate, JudgesTwoPosesThatTellNoBase) {
-  SentArm arm(30);
-  for (const char* const id : {"A", "B"}) arm.add(id, arm.somewhere(), Eigen::Vector3d(kError_m, 0, 0));
-  const Certificate certificate = certificate_of(arm, run_at(1.5e-3));
-  EXPECT_FALSE(certificate.before.mean_mm);
-  EXPECT_NEAR(*certificate.after.mean_mm, 1e3 * kError_m, 1e-6);
-  EXPECT_FALSE(certificate.poses.front().before_mm);
-  EXPECT_TRUE(remarks_on(certificate, "no errors before are stated"));
+TEST(Certificate, JudgesPosesThatAreTooFewToTellTheBase) {
+  for (const int count : {2, 3}) {
+    SentArm arm(30);
+    for (int i = 0; i < count; ++i) arm.add("P" + std::to_string(i), arm.somewhere(), Eigen::Vector3d(kError_m, 0, 0));
+    const Certificate certificate = certificate_of(arm, run_at(1.5e-3));
+    EXPECT_FALSE(certificate.before.mean_mm);
+    EXPECT_NEAR(*certificate.after.mean_mm, 1e3 * kError_m, 1e-6);
+    EXPECT_FALSE(certificate.poses.front().before_mm);
+    EXPECT_TRUE(remarks_on(certificate, "no errors before are stated"));
+  }
 }
 
 TEST(Certificate, ClaimsNothingOfWhereOtherDataAreFrom) {
