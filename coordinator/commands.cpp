@@ -146,6 +146,17 @@ CLI::Validator above_zero() {
       "");
 }
 
+CLI::Validator number_from(double least, double most) {
+  return CLI::Validator(
+      [least, most](std::string& text) {
+        const std::optional<double> value = parse_number(text);
+        return value && *value >= least && *value <= most
+                   ? std::string()
+                   : fmt::format("'{}' must be a number from {:g} to {:g}, without a unit", text, least, most);
+      },
+      "");
+}
+
 CLI::Validator not_negative() {
   return CLI::Validator(
       [](std::string& text) {

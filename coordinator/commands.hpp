@@ -94,8 +94,10 @@ void require_instrument(const DataSet& data, const std::string& what);
 /// Throws InputError where poses touch something and `what` would take their agreement for accuracy.
 void require_positions(const DataSet& data, const std::string& what);
 
-/// Of options that hold a number: above 0; a whole number of 0 or more.
+/// Of options that hold a number: above 0; no less than `least` and no more than `most`; a whole number of 0 or more.
+/// CLI::Range lets what is no number pass: no comparison with it holds.
 CLI::Validator above_zero();
+CLI::Validator number_from(double least, double most);
 CLI::Validator not_negative();
 
 /// The option --force of a command that fits or judges data.

@@ -38,6 +38,8 @@
 namespace demecal {
 namespace {
 
+constexpr double kMost = 1e5;  ///< mm that robot files have a tool within, and deg or mm of joints
+
 struct ApplyRequest {
   std::string model_file, program_file, out, language, frames_file;
   std::vector<std::string> further_files;
@@ -228,7 +230,8 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--pulses-per-deg", request->pulses_per_deg,
                    "P1,P2,... of each joint, for positions in pulses; without it those of the robot's file")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(number_from(-1e9, 1e9));
   command->add_option("--language", request->language, "where the file's ending and words do not say it")
       ->check(CLI::IsMember(language_names(), CLI::ignore_case));
   command->add_flag("--strict", request->strict, "write nothing where there is a warning (exit code 11)");
@@ -237,20 +240,22 @@ void add_apply(CLI::App& app, ExitCode& exit_code) {
       ->add_option("--near", request->near,
                    "Q1,Q2,... joints (deg; mm where one slides) that the arm is near to where the program does not "
                    "tell; without it the robot's home_deg")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->check(number_from(-kMost, kMost));
   command->add_flag("--json", request->json, "the summary as one line of JSON");
   command->add_option("--payload-kg", request->payload_kg, "what the tool carries, where the file does not say it")
-      ->check(CLI::Range(0.0, 1e5));
+      ->check(number_from(0.0, 1e5));
   command
       ->add_option("--temperature-celsius", request->temperature_celsius,
                    "of the arm; without it the one that the model is made for")
-      ->check(CLI::Range(-273.15, 1000.0));
+      ->check(number_from(-273.15, 1000.0));
   command
       ->add_option("--tool-mm", request->tool_mm,
                    "X Y Z (or X,Y,Z) of the program's tool point on the flange, where it is not the tool that was "
                    "measured; a tool that the program states comes first")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(number_from(-kMost, kMost));
   command->callback([request, &exit_code] { exit_code = run_apply(*request); });
 }
 

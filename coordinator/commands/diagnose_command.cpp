@@ -173,7 +173,7 @@ void add_loop_options(CLI::App& command, DiagnoseRequest& request) {
   command
       .add_option("--family-error", request.loop.family_error,
                   "chance of adding anything to a model that lacks nothing")
-      ->check(CLI::Range(1e-6, 0.999999))
+      ->check(number_from(1e-6, 0.999999))
       ->capture_default_str();
   command.add_option("--highest-ratio", request.loop.highest_ratio, "of the scan over gear harmonics")
       ->check(CLI::Range(0, 10000))

@@ -137,14 +137,14 @@ void add_monitor(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--json", request->options.json, "a line of JSON for each event");
   command->add_flag("--once", request->options.once, "the present state, then end; 20 where nobody is there");
   CLI::Option* wait = command->add_option("--wait", request->wait_s, "seconds that --once waits for the whole state")
-                          ->check(CLI::Range(0.1, 3600.0))
+                          ->check(number_from(0.1, 3600.0))
                           ->capture_default_str();
   CLI::Option* recorded = command->add_option(
       "--replay", request->recorded,
       "show a recorded run: a folder that calibrate or diagnose wrote, its events.jsonl, or what --record wrote");
   command->add_option("--speed", request->options.speed, "of --replay: how much faster than it was")
       ->needs(recorded)
-      ->check(CLI::Range(1e-3, 1e6))
+      ->check(number_from(1e-3, 1e6))
       ->capture_default_str();
   CLI::Option* http = command
                           ->add_option("--http", request->options.http,

@@ -133,7 +133,7 @@ void add_serve(CLI::App& app, ExitCode& exit_code) {
                    "jobs")
       ->type_name("FILE");
   command->add_option("--longest-run-h", request->longest_run_h, "hours after which a run is interrupted")
-      ->check(CLI::Range(0.001, 8760.0))
+      ->check(number_from(0.001, 8760.0))
       ->capture_default_str();
   add_worker_arguments(*command, request->workers);
   command->callback([request, &exit_code] { exit_code = run_serve(*request); });
