@@ -19,22 +19,25 @@
 #include "tables/guess_columns.hpp"
 #include "tables/layout.hpp"
 #include "tables/read_table.hpp"
+#include "tables/time_stamp.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal::inline drafting {
 namespace {
 
-/// The column's fields, where they are texts, most of which differ, and not numbers alone; otherwise nothing.
+/// The column's fields, where they are texts, most of which differ, and neither numbers nor times alone, which may be
+/// the same in all tables too; otherwise nothing.
 std::set<std::string> point_names(const CsvTable& table, std::size_t column) {
   std::set<std::string> names;
-  bool numbers = true;
+  bool numbers = true, times = true;
   for (const CsvRow& row : table.rows) {
     const std::string& field = row.fields[column];
     if (field.empty()) return {};
     names.insert(field);
     numbers = numbers && parse_number(field).has_value();
+    times = times && parse_time_stamp(field).has_value();
   }
-  return numbers || 2 * names.size() <= table.rows.size() ? std::set<std::string>{} : names;
+  return numbers || times || 2 * names.size() <= table.rows.size() ? std::set<std::string>{} : names;
 }
 
 /// Whether most of the fewer names are among the others.

@@ -38,7 +38,8 @@ std::map<std::string, std::size_t> rows_by_name(const CsvTable& table, const Joi
                                        const CsvTable& other, std::vector<std::string> names) {
   throw InputError({table.file, table.rows[row].line}, name,
                    "is the name of no point of " + other.file + "; the nearest is '" + nearest_name(name, names) +
-                       "'. Every row needs a partner; `unmatched: leave_out` under `join` leaves such rows out");
+                       "'. Every row needs a partner: take this one out, or state `join: {by: name, unmatched: "
+                       "leave_out}` in the data set's file (`demecal template dataset --for` these files writes it)");
 }
 
 /// Every row of another table has one of the leading table.

@@ -91,6 +91,19 @@ TEST(Drafts, JoinByNameAloneWhereANameStandsTwice) {
   }
 }
 
+TEST(Drafts, TakeNoTimesThatTwoClocksShareForNamesOfPoints) {
+  for (const std::string day : {"", "2026-04-03 ", "03.04.2026 "}) {
+    std::string logged = "Time,q1_deg,q2_deg\n", measured = "Time,x_mm,y_mm,z_mm\n";
+    for (int second = 10; second < 40; ++second) logged += day + "09:00:" + std::to_string(second) + ",1,2\n";
+    for (int second = 12; second < 40; second += 5) measured += day + "09:00:" + std::to_string(second) + ",3,4,5\n";
+    const TemporaryFolder folder;
+    const auto joints = folder.write("joints.csv", logged), points = folder.write("points.csv", measured);
+    const auto drafts = draft_data_sets(read_given_tables({joints, points}, 2, {}), folder.path(), "robot.yaml", 2, {});
+    ASSERT_FALSE(drafts.empty()) << day;
+    EXPECT_THAT(drafts.front().text, AllOf(HasSubstr("join: {by: time"), Not(HasSubstr("pose: Time")))) << day;
+  }
+}
+
 TEST(Drafts, TakeTheUnitOfARailFromWhatItDrives) {
   const auto draft = [](const std::string& headings, const std::string& rows) {
     const TemporaryFolder folder;
