@@ -74,6 +74,10 @@ void hold(UrdfJoint& joint, double value) {
   joint.type = UrdfType::fixed;
 }
 
+const Eigen::Vector3d& larger(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+  return one.cwiseAbs().maxCoeff() < other.cwiseAbs().maxCoeff() ? other : one;
+}
+
 class SdfModel {
  public:
   SdfModel(const XmlElement& model, const std::string& file, int minor)
@@ -154,6 +158,8 @@ class SdfModel {
     joint.child = frames_.link_of(joint.child);
     if (joint.type == UrdfType::fixed) written.frame = joint.child;  // where it is fixed makes no difference
     joint.origin = frames_.origin_in(joint.parent, written.frame);
+    for (const std::string& name : {joint.child, written.frame})
+      joint.written_rpy = larger(joint.written_rpy, frames_.frame(name).origin.rpy_rad);
     joint.axis = written.axis;
     if (written.axis_in != written.frame)
       joint.axis = pose_of(frames_.origin_in(written.frame, written.axis_in)).linear() * written.axis;

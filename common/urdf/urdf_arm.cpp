@@ -21,6 +21,9 @@ constexpr double kShortestAxis = 1e-6;
 constexpr double kEndless_rad = 100.0;    ///< limits beyond are written where there are none
 constexpr double kAssumedTravel_m = 1.0;  ///< of a sliding joint that states no limits
 
+constexpr double kFarthest_m = 100.0;  ///< as in robot files
+constexpr double kFar_m = 5.0;         ///< from one joint to the next: farther than arms reach
+
 [[noreturn]] void refuse(const UrdfFile& urdf, const UrdfJoint& joint, const std::string& rule) {
   throw InputError({urdf.file, joint.line}, joint.name, rule);
 }
@@ -31,6 +34,30 @@ void require_link(const UrdfFile& urdf, const std::string& name, const char* opt
   if (std::ranges::find(known, name) != known.end()) return;
   throw InputError({urdf.file, 0}, name,
                    std::string("is no link of this file (") + option + "); nearest is " + nearest_name(name, known));
+}
+
+void require_near(const UrdfFile& urdf, const UrdfJoint& joint) {
+  const double far_m = joint.origin.xyz_m.cwiseAbs().maxCoeff();
+  if (far_m > kFarthest_m)
+    refuse(urdf, joint,
+           "stands " + number_text(far_m) + " m from link " + joint.parent +
+               ", and may stand 100 m away: the file counts in metres; where its lengths are mm, divide all by 1000");
+}
+
+/// Says what may be in mm or degrees.
+void note_units(const UrdfJoint& joint, std::vector<std::string>& notes) {
+  const double far_m = joint.origin.xyz_m.cwiseAbs().maxCoeff();
+  if (far_m > kFar_m)
+    notes.push_back("joint " + joint.name + " stands " + number_text(far_m) + " m from link " + joint.parent +
+                    ", farther than arms reach: the file counts in metres, and this may be mm");
+  const auto no_radians = [](double angle) {
+    return std::abs(angle) > kTurn_rad || (std::abs(angle) >= 4.0 && angle == std::round(angle));
+  };
+  const Eigen::Vector3d& rpy = joint.written_rpy;
+  const auto odd = std::ranges::find_if(rpy, no_radians);
+  if (odd != rpy.end())
+    notes.push_back("joint " + joint.name + " or its links are turned by an angle of " + number_text(*odd) +
+                    ": the file counts in radians, and this may be degrees");
 }
 
 /// The way from one link to another: up over fixed joints, and down.
@@ -59,6 +86,7 @@ Way way_between(const UrdfFile& urdf, const std::string& base, const std::string
                        "is a link that does not hang on link " + base + ", nor on a link that " + base +
                            " is fixed to; the arm must lead from --base to --tip");
     }
+    require_near(urdf, *joint);
     way.up = way.up * pose_of(joint->origin).inverse();
     way.straight = false;
     at = joint->parent;
@@ -235,6 +263,8 @@ UrdfArm arm_between(const UrdfFile& urdf, const std::optional<std::string>& base
   bool direct = way.straight;  // no fixed place stands before the next origin
   Origin last;                 // the last fixed origin, where there is but one
   for (const UrdfJoint* joint : way.down) {
+    require_near(urdf, *joint);
+    note_units(*joint, arm.notes);
     if (!moves(*joint)) {
       last = direct ? joint->origin : origin_of(fixed * pose_of(joint->origin), joint->origin);
       fixed = fixed * pose_of(joint->origin);

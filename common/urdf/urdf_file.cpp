@@ -31,6 +31,7 @@ UrdfJoint read_joint(const XmlValues& values, const XmlElement& element) {
     *link = values.text(*end, "link");
   }
   joint.origin = values.origin(element.child("origin"));
+  joint.written_rpy = joint.origin.rpy_rad;
   joint.axis = values.vector_or(element.child("axis"), "xyz", Eigen::Vector3d::UnitX());
   joint.lower = values.number_or(element.child("limit"), "lower", 0.0);
   joint.upper = values.number_or(element.child("limit"), "upper", 0.0);

@@ -43,6 +43,7 @@ struct UrdfJoint {
   std::optional<std::string> mimics;
   std::size_t line = 0;
   XmlElement element;
+  Eigen::Vector3d written_rpy = Eigen::Vector3d::Zero();  ///< the angles as the file has them, of an SDF's poses too
 };
 
 struct UrdfLink {

@@ -66,6 +66,17 @@ TEST(SdfFile, HasNoLimitsWhereTheyAreMissingOrEndless) {
   EXPECT_THAT(joint("prismatic", "-1e16", "1e16").second, ElementsAre(HasSubstr("states no limits")));
 }
 
+TEST(SdfFile, SuspectsPosesInDegreesThatDoNotSaySo) {
+  const auto notes_of = [](const std::string& pose) {
+    return arm_between(parse_urdf_or_sdf(replaced(small_sdf(), "<pose>0.4 0 0.5 0 0 0", pose), "arm.sdf"), {}, {})
+        .notes;
+  };
+  EXPECT_THAT(notes_of("<pose>0.4 0 0.5 90 0 0"), ElementsAre(HasSubstr("turned by an angle of 90")));
+  EXPECT_THAT(notes_of("<pose degrees=\"true\">0.4 0 0.5 90 0 0"), IsEmpty());
+  EXPECT_THAT(sdf_complaint(replaced(small_sdf(), "<pose>0.4 0 0.5", "<pose>400 0 0.5")),
+              AllOf(HasSubstr("arm.sdf:7: 'j2': stands 400 m from link a"), HasSubstr("divide all by 1000")));
+}
+
 TEST(SdfFile, TakesAJointThatItsLimitsHoldAsFixedThere) {
   const std::string held = sdf_link("c", "<pose>0.4 0 0.5 0 0 0</pose>") +
                            sdf_joint("j3", "revolute", "b", "c", sdf_axis("<xyz>0 0 1</xyz>", "0.5", "0.5")) +

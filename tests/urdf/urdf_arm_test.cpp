@@ -112,6 +112,26 @@ TEST(UrdfArm, SuspectsLimitsThatNoArmTurnsToAndRefusesQuaternions) {
               AllOf(HasSubstr("arm.urdf:5"), HasSubstr("state the same orientation as rpy")));
 }
 
+TEST(UrdfArm, SuspectsMillimetresAndDegreesAndRefusesWhatNoRobotFileHolds) {
+  const auto with_origin = [](const std::string& origin) {
+    return robot_xml(link_xml("base") + link_xml("a") +
+                     joint_xml("j1", "revolute", "base", "a", "<origin " + origin + "/>" + kTurns));
+  };
+  const auto notes_of = [&](const std::string& origin) {
+    return arm_between(parse_urdf(with_origin(origin), "arm.urdf"), {}, {}).notes;
+  };
+  for (const std::string far : {"300", "-100.5", "1e9", "1e308"})
+    EXPECT_THAT(complaint_of(with_origin("xyz=\"0 " + far + " 0\"")),
+                AllOf(HasSubstr("arm.urdf:5: 'j1': stands "), HasSubstr("divide all by 1000")))
+        << far;
+  EXPECT_THAT(notes_of("xyz=\"0 0 30\""), ElementsAre(HasSubstr("joint j1 stands 30 m from link base")));
+  EXPECT_THAT(notes_of("xyz=\"0 0 4\""), IsEmpty());
+  for (const std::string turned : {"-90 0 0", "0 0.5 6.5", "0 0 5"})
+    EXPECT_THAT(notes_of("rpy=\"" + turned + "\""), ElementsAre(HasSubstr("this may be degrees"))) << turned;
+  for (const std::string turned : {"-1.5707963 0 6.2831853", "0 0.9 3", "0 0 0"})
+    EXPECT_THAT(notes_of("rpy=\"" + turned + "\""), IsEmpty()) << turned;
+}
+
 TEST(UrdfArm, AddsUpTheMassesOfWhatMovesWithAJoint) {
   const auto mass = [](const char* kg, const char* at) {
     return "<inertial><mass value=\"" + std::string(kg) + "\"/><origin xyz=\"" + at + "\"/></inertial>";
