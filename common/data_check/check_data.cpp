@@ -132,8 +132,10 @@ class DataChecker {
     for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) {
       if (auto read = explain_wrong_rows(data_, whole_, fit_, set)) {
         add(std::move(*read));
-      } else {
-        check_set(set);
+      } else if (auto other = other_place_of(set)) {
+        add(std::move(*other));
+      } else if (auto named = name_wrong_rows(data_, whole_, fit_, set)) {
+        add(std::move(*named));
       }
     }
     if (check_.verdict() == DataVerdict::contradiction) return;
@@ -143,7 +145,8 @@ class DataChecker {
       add(std::move(finding));
   }
 
-  void check_set(PoseSet set) {
+  /// Another frame or tool of a whole set; its points come back as they would lie without.
+  std::optional<Finding> other_place_of(PoseSet set) {
     std::vector<TrialRow> rows;
     std::vector<std::size_t> places;
     for (std::size_t i = 0; i < whole_.rows.size(); ++i) {
@@ -152,7 +155,7 @@ class DataChecker {
       places.push_back(i);
     }
     const auto other = find_other_set(fit_, rows);
-    if (!other) return;
+    if (!other) return std::nullopt;
     for (std::size_t i = 0; i < rows.size(); ++i) whole_.rows[places[i]] = rows[i];
     Finding finding{.kind = other->by_tool ? FindingKind::wrong_tool : FindingKind::set_in_other_frame,
                     .as_given_mm = millimetres(other->as_given_m),
@@ -163,7 +166,7 @@ class DataChecker {
         "this set mean nothing until it is brought into the same frame.",
         to_string(set), other->by_tool ? "with another tool point" : "in another frame", distance_text(other->shift_m),
         before_and_after(other->as_given_m, other->if_changed_m));
-    add(std::move(finding));
+    return finding;
   }
 
   const DataSet& data_;

@@ -23,10 +23,11 @@ namespace demecal::inline data_check {
 namespace {
 
 constexpr double kOffOverMedian = 10.0;  ///< times the median, beyond which a row is off while the others fit
-constexpr double kMostRows = 0.7;        ///< above which those that fit are too few to hold the others against
+constexpr double kMostRows = 0.7;        ///< of fitted ones, above which too few are left to hold the others against
 constexpr double kShareExplained = 0.8;  ///< of the rows that are off, which an explanation must bring back
 constexpr double kFallOfMedian = 0.2;    ///< ratio of their median errors, after to before
 constexpr std::size_t kFewestOff = 5;
+constexpr double kUnforeseen = 8.0;  ///< deviations that a set's prediction is off by where nothing foretells it
 constexpr int kMostGroupShift = 3;
 constexpr std::ptrdiff_t kNearEnd = 3;  ///< rows before the last one that may fit by chance
 
@@ -53,63 +54,89 @@ class WrongRows {
     }
   }
 
+  /// Of a set that the fit did not see they may be all.
   bool are_many() const {
-    const auto off = static_cast<double>(off_.size()), all = static_cast<double>(fitted_);
-    return off_.size() >= kFewestOff && off >= kManyRows * all && off <= kMostRows * all;
+    const bool too_many = set_ == PoseSet::calibration && are_most();
+    return off_.size() >= kFewestOff && !too_many && are_share(off_.size());
   }
+
+  /// So many that what differs may be of the set as a whole.
+  bool are_most() const { return static_cast<double>(off_.size()) > kMostRows * static_cast<double>(fitted_); }
 
   /// The rows that are off are fewer, but stand together as rows of another file or of a later day do.
-  /// Of a set that the fit did not see it may be all.
   bool are_a_block() const {
-    const bool too_many =
-        set_ == PoseSet::calibration && static_cast<double>(off_.size()) > kMostRows * static_cast<double>(fitted_);
-    return !are_many() && !too_many && off_.size() >= kFewestOff && stand_together(places_);
+    return !are_many() && off_.size() >= kFewestOff && !are_most() && stand_together(places_);
   }
 
-  /// The rows that are off by more than `least_m` alone are many.
+  /// The rows that are off by more than `least_m` alone are many; of a set that the fit did not see, those by more than
+  /// it foretells besides: poses far from the calibrated ones may be off by much.
   bool are_many_beyond(double least_m) const {
-    const auto beyond = std::ranges::count_if(errors_m_, [=](double error_m) { return error_m > least_m; });
-    return are_many() && static_cast<double>(beyond) >= kManyRows * static_cast<double>(fitted_);
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < off_.size(); ++i) {
+      const bool foretold = set_ != PoseSet::calibration && fit_.deviations_off(whole_.rows[off_[i]]) < kUnforeseen;
+      if (errors_m_[i] > least_m && !foretold) ++beyond;
+    }
+    return are_many() && are_share(beyond);
   }
 
   std::optional<Finding> explained() const {
     std::optional<GroupReading> best;
-    const auto take = [&](GroupReading reading) {
-      weigh(reading);
-      if (reading.fitting < static_cast<std::size_t>(std::ceil(kShareExplained * static_cast<double>(off_.size()))) ||
-          reading.median_m > kFallOfMedian * median(errors_m_))
-        return;
-      if (!best || reading.median_m < 0.5 * best->median_m) best = std::move(reading);
-    };
+    const auto take = [&](GroupReading reading) { take_better(std::move(reading), best); };
     for (const Explanation& one : whole_set_explanations(whole_.chain)) take(reading_of(one));
     for (const Explanation& one : column_unit_explanations()) take(reading_of(one));
     for (const Explanation& one : axes_explanations()) take(reading_of(one));
     for (const Explanation& one : target_explanations()) take(reading_of(one));
-    for (int shift = -kMostGroupShift; are_many() && shift <= kMostGroupShift; ++shift)
+    for (int shift = -kMostGroupShift; shift <= kMostGroupShift; ++shift)
       if (shift != 0) take(shifted(shift));
-    if (!best && are_many())
-      for (int joint = 0; joint < whole_.chain.size(); ++joint)
-        if (is_revolute(whole_.chain, joint)) take(offset_of(joint));
-    if (!best) return std::nullopt;
-    Finding finding = started(best->kind);
-    finding.joint = best->joint;
-    finding.if_changed_mm = millimetres(best->median_m);
-    finding.sentence += "; they fit if " + best->clause + " " + before_and_after(median(errors_m_), best->median_m) +
-                        ". Correct these rows.";
-    return finding;
+    if (!best && are_many() && !are_most()) best = best_offset();
+    return best ? std::optional(finding_of(*best)) : std::nullopt;
+  }
+
+  /// Of a whole set: by an offset of one joint, which a turned frame looks like.
+  std::optional<Finding> explained_by_offset() const {
+    const auto best = best_offset();
+    return best ? std::optional(finding_of(*best)) : std::nullopt;
   }
 
   Finding unexplained() const {
     Finding finding = started(FindingKind::many_outliers);
     finding.sentence +=
         ", and no sign, offset, exchange, unit or shift of rows that was tried explains them. Find out what differs in "
-        "these rows, or leave them out.";
+        "these rows (their order among them), or leave them out.";
     return finding;
   }
 
  private:
   double error(const TrialRow& row) const { return (row.point_m - predicted_point(fit_, row)).norm(); }
   const MeasuredPose& pose_of(std::size_t row) const { return data_.poses[whole_.rows[row].pose]; }
+
+  bool are_share(std::size_t rows) const {
+    return static_cast<double>(rows) >= kManyRows * static_cast<double>(fitted_);
+  }
+
+  void take_better(GroupReading reading, std::optional<GroupReading>& best) const {
+    weigh(reading);
+    if (reading.fitting < static_cast<std::size_t>(std::ceil(kShareExplained * static_cast<double>(off_.size()))) ||
+        reading.median_m > kFallOfMedian * median(errors_m_))
+      return;
+    if (!best || reading.median_m < 0.5 * best->median_m) best = std::move(reading);
+  }
+
+  std::optional<GroupReading> best_offset() const {
+    std::optional<GroupReading> best;
+    for (int joint = 0; joint < whole_.chain.size(); ++joint)
+      if (is_revolute(whole_.chain, joint)) take_better(offset_of(joint), best);
+    return best;
+  }
+
+  Finding finding_of(const GroupReading& reading) const {
+    Finding finding = started(reading.kind);
+    finding.joint = reading.joint;
+    finding.if_changed_mm = millimetres(reading.median_m);
+    finding.sentence += "; they fit if " + reading.clause + " " +
+                        before_and_after(median(errors_m_), reading.median_m) + ". Correct these rows.";
+    return finding;
+  }
 
   void weigh(GroupReading& reading) const {
     std::vector<double> errors_m;
@@ -226,16 +253,22 @@ class WrongRows {
     Finding finding{.kind = kind, .as_given_mm = millimetres(median(errors_m_))};
     std::vector<std::size_t> off;
     std::vector<double> fitting, wrong;
+    std::size_t rows = 0;
     for (std::size_t i = 0; i < whole_.rows.size(); ++i) {
       const double error_m = error(whole_.rows[i]);
-      (error_m > limit_m_ ? wrong : fitting).push_back(error_m);
-      if (error_m <= limit_m_) continue;
+      const bool is_off = error_m > limit_m_, counts = set_ == PoseSet::calibration || pose_of(i).set == set_;
+      if (!is_off) fitting.push_back(error_m);
+      rows += counts ? 1 : 0;
+      if (!is_off || !counts) continue;
+      wrong.push_back(error_m);
       off.push_back(i);
       finding.poses.push_back(pose_of(i).pose_id);
     }
-    finding.sentence = fmt::format("{} of {} rows ({}) are {} to {} off, while the others fit to {} at the median",
-                                   off.size(), whole_.rows.size(), where(off), distance_text(std::ranges::min(wrong)),
-                                   distance_text(std::ranges::max(wrong)), distance_text(median(std::move(fitting))));
+    finding.sentence =
+        fmt::format("{} of {} {}rows ({}) are {} to {} off, while the others fit to {} at the median", off.size(), rows,
+                    set_ == PoseSet::calibration ? "" : fmt::format("{} ", to_string(set_)), where(off),
+                    distance_text(std::ranges::min(wrong)), distance_text(std::ranges::max(wrong)),
+                    distance_text(median(std::move(fitting))));
     return finding;
   }
 
@@ -257,10 +290,11 @@ std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whol
   return wrong.are_many() || wrong.are_a_block() ? wrong.explained() : std::nullopt;
 }
 
-std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit) {
-  const WrongRows wrong(data, whole, fit);
+std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit, PoseSet set) {
+  const WrongRows wrong(data, whole, fit, set);
   if (!wrong.are_many_beyond(kImplausibleShare * whole.reach_m())) return std::nullopt;
-  return wrong.unexplained();
+  const auto offset = set != PoseSet::calibration && wrong.are_most() ? wrong.explained_by_offset() : std::nullopt;
+  return offset ? offset : wrong.unexplained();
 }
 
 }  // namespace demecal::inline data_check

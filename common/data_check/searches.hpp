@@ -51,12 +51,15 @@ std::vector<Finding> find_contradictions(const DataSet& data, const CheckedRows&
 
 /// Where 15 % of the rows of a set and more are off while the others fit `fit` to a tenth of that: how they fit, if
 /// by a sign, offset, exchange, unit, pair of axes or targets, or a shift of rows. Fewer rows that stand together, five
-/// at least, are read in the same ways, but for shifts and offsets of any size. Base, tools and links are held.
+/// at least, are read in the same ways, but for offsets of any size; so are most rows of a set that was not fitted.
+/// Base, tools and links are held.
 std::optional<Finding> explain_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit,
                                           PoseSet set = PoseSet::calibration);
 
-/// The same rows where they are farther off than any arm errs, and nothing that was tried explains them.
-std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit);
+/// The same rows where they are farther off than any arm errs, and nothing that was tried explains them. Of a set that
+/// was not fitted most rows may lack an offset of one joint, which is named then: try another frame and tool before.
+std::optional<Finding> name_wrong_rows(const DataSet& data, const Trial& whole, const TrialFit& fit,
+                                       PoseSet set = PoseSet::calibration);
 
 /// Moves of the instrument among the calibration poses, and zeros of joints and tools that changed. Rows come back with
 /// the stations, zeros and tools that say so, `fit` fitted to them.

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <set>
 #include <string>
@@ -186,6 +187,81 @@ TEST(RowGroups, WhatNothingExplainsIsRefusedAllTheSame) {
     const DataCheck check = check_data(data);
     EXPECT_TRUE(check.has(FindingKind::many_outliers)) << data.robot.name << all_sentences(check);
     EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << data.robot.name;
+  }
+}
+
+/// Points of the poses from `first` on, each taken from the pose after it; the last keeps its own.
+DataSet shifted_from(const DataSet& right, std::size_t first) {
+  DataSet data = right;
+  for (std::size_t i = first; i + 1 < data.poses.size(); ++i) data.poses[i].position_m = right.poses[i + 1].position_m;
+  return data;
+}
+
+/// Poses in the order of their sets, as a person writes them down.
+DataSet by_sets(DataSet data) {
+  std::ranges::stable_sort(data.poses, {}, &MeasuredPose::set);
+  return data;
+}
+
+TEST(RowGroups, ShiftedRowsOfASetThatWasNotFittedAreAContradiction) {
+  for (const DataSet& mixed : arms_measured(11)) {
+    const DataSet right = by_sets(mixed);
+    for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) {
+      DataSet data = right;
+      const std::vector<std::size_t> poses = poses_of(right, set);
+      for (std::size_t i = 0; i + 1 < poses.size(); ++i)
+        data.poses[poses[i]].position_m = right.poses[poses[i + 1]].position_m;
+      const DataCheck check = check_data(data);
+      const std::string of = data.robot.name + "\n" + all_sentences(check);
+      const Finding* finding = first_of(check, FindingKind::rows_shifted);
+      ASSERT_NE(finding, nullptr) << of;
+      EXPECT_THAT(finding->sentence, ::testing::HasSubstr(std::string(to_string(set)) + " rows")) << of;
+      EXPECT_GT(finding->poses.size(), 9 * poses.size() / 10) << of;
+      EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << of;
+    }
+  }
+}
+
+TEST(RowGroups, AShiftFromAFewCalibrationRowsBeforeTheEndOnIsNamed) {
+  for (const DataSet& mixed : arms_measured(12)) {
+    const DataSet right = by_sets(mixed);
+    const std::size_t calibration = poses_of(right, PoseSet::calibration).size();
+    for (const std::size_t before : {6, 10}) {
+      const DataCheck check = check_data(shifted_from(right, calibration - before));
+      EXPECT_TRUE(check.has(FindingKind::rows_shifted)) << right.robot.name << before << all_sentences(check);
+      EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << right.robot.name;
+    }
+  }
+}
+
+TEST(RowGroups, AShuffledSetThatWasNotFittedIsAContradiction) {
+  RandomStream random{13};
+  for (const DataSet& right : arms_measured(13)) {
+    for (const PoseSet set : {PoseSet::validation, PoseSet::accept}) {
+      DataSet data = right;
+      const std::vector<std::size_t> poses = poses_of(right, set);
+      for (std::size_t i = poses.size() - 1; i > 0; --i)
+        std::swap(data.poses[poses[i]].position_m, data.poses[poses[random.index(i + 1)]].position_m);
+      const DataCheck check = check_data(data);
+      EXPECT_TRUE(check.has(FindingKind::many_outliers)) << data.robot.name << all_sentences(check);
+      EXPECT_EQ(check.verdict(), DataVerdict::contradiction) << data.robot.name;
+    }
+  }
+}
+
+TEST(RowGroups, AJointOffInASetThatWasNotFittedIsToldFromATurnedFrame) {
+  for (const DataSet& right : arms_measured(14)) {
+    for (const int joint : {0, 1, 2}) {
+      DataSet data = right;
+      for (const std::size_t pose : poses_of(data, PoseSet::validation)) data.poses[pose].joints[joint] += radians(5.0);
+      const DataCheck check = check_data(data);
+      const std::string of = data.robot.name + "\n" + all_sentences(check);
+      ASSERT_EQ(check.findings.size(), 1u) << of;
+      const Finding& finding = check.findings.front();
+      // The first joint turns all points about the base, as another frame does.
+      EXPECT_EQ(finding.kind, joint == 0 ? FindingKind::set_in_other_frame : FindingKind::joint_offset) << of;
+      if (joint != 0) EXPECT_EQ(finding.joint, joint) << of;
+    }
   }
 }
 
