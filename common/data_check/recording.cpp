@@ -103,14 +103,26 @@ Wandering best_wandering(const DataSet& data, const Trial& trial, const Projecte
   return best;
 }
 
+/// The largest gain of one joint that counts too much or too little, by which random rows seem to wander too.
+double gain_of_one_joint(const Trial& trial, const TrialFit& fit, const ProjectedColumns& projected) {
+  const Eigen::MatrixXd columns =
+      joint_columns(trial, fit, [&trial](std::size_t row, int joint) { return trial.rows[row].joints[joint]; });
+  double gain = 0.0;
+  for (Eigen::Index joint = 0; joint < columns.cols(); ++joint)
+    gain = std::max(gain, projected.gain(columns.col(joint)));
+  return gain;
+}
+
 }  // namespace
 
 std::optional<Finding> find_drift_without_times(const DataSet& data, const Trial& trial, const TrialFit& fit) {
   if (trial.rows.size() < kFewestRecorded || !fit.has_links()) return std::nullopt;
   if (std::ranges::any_of(data.poses, [](const MeasuredPose& pose) { return pose.time_s.has_value(); }))
     return std::nullopt;
-  const Wandering wandering = best_wandering(data, trial, ProjectedColumns(trial, fit));
-  if (wandering.gain < kNotableGain * fit.rows_per_pose) return std::nullopt;
+  const ProjectedColumns projected(trial, fit);
+  const Wandering wandering = best_wandering(data, trial, projected);
+  if (wandering.gain < std::max(kNotableGain * fit.rows_per_pose, gain_of_one_joint(trial, fit, projected)))
+    return std::nullopt;
   return Finding{
       .kind = FindingKind::drift_without_times,
       .as_given_mm = millimetres(wandering.farthest_m),

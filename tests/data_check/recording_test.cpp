@@ -225,6 +225,16 @@ TEST(Recording, DriftIsNamedWhereNoTimesAreGiven) {
   }
 }
 
+TEST(Recording, AJointThatCountsTooMuchIsNoDrift) {
+  for (const DataSet& right : long_measurements(5)) {
+    for (const int joint : {0, 1}) {
+      DataSet scaled = right;
+      for (MeasuredPose& pose : scaled.poses) pose.joints[joint] *= 1.005;
+      EXPECT_FALSE(check_data(scaled).has(FindingKind::drift_without_times)) << right.robot.name << joint;
+    }
+  }
+}
+
 TEST(Recording, DriftThereAndBackIsNamedAndNoMoveOfTheInstrument) {
   for (const DataSet& right : long_measurements(14)) {
     for (const int periods : {1, 2}) {
