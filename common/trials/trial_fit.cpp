@@ -38,7 +38,7 @@ double tukey_weight(double error_m, double deviation_m) {
 /// The scale as fit_base_and_tools states it.
 double deviation_of(std::vector<double> errors, double fitted_rows, double usual_m) {
   const auto n = static_cast<double>(errors.size());
-  const double fitted = std::min(fitted_rows, n), rank = std::min(std::ceil(0.5 * (n + fitted)), n);
+  const double fitted = std::min(fitted_rows, n), rank = std::clamp(std::ceil(0.5 * (n + fitted)), 1.0, n);
   const auto at = errors.begin() + static_cast<std::ptrdiff_t>(rank - 1.0);
   std::nth_element(errors.begin(), at, errors.end());
   const double raw_m = *at / normal_length_quantile(3, (rank - 0.5) / n);
@@ -179,7 +179,7 @@ bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, T
   const Eigen::VectorXd step = factor.solve(normal.gradient);
   if (!step.allFinite()) return false;
   fit.covariance = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
-  fit.effective_parameters = fit.covariance.cwiseProduct(by_points).sum();
+  fit.effective_parameters = std::clamp(fit.covariance.cwiseProduct(by_points).sum(), 0.0, double(places.size()));
   move(fit, places, step);
   measure_errors(trial, fit);
   return true;

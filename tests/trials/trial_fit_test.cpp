@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "kinematics/forward.hpp"
 #include "mistaken_case.hpp"
 #include "parameters/declared_model.hpp"
@@ -138,6 +141,46 @@ TEST(TrialFit, KeepsLinksNearTheirDescriptionWhereNothingFits) {
   const TrialFit fit = fit_arm(trial, fit_base_and_tools(trial));
   EXPECT_GT(fit.median_m, 0.02);
   EXPECT_LT(largest_change(fit, trial), 20.0);
+}
+
+/// An arm with two upright joints, a slide that hangs upside down but for `tilt_rad`, and a joint about it, measured by
+/// somebody who counts the slide the other way.
+Trial hanging_slide(double tilt_rad, std::uint64_t seed) {
+  RandomStream random{seed};
+  Trial trial;
+  trial.chain.joints.resize(4);
+  trial.chain.joints[0].a_m = 0.325;
+  trial.chain.joints[0].d_m = 0.387;
+  trial.chain.joints[1].a_m = 0.275;
+  trial.chain.joints[1].alpha_rad = std::numbers::pi + tilt_rad;
+  trial.chain.joints[2].type = JointType::prismatic;
+  trial.tools_m = {{0.05, 0.03, 0.1}};
+  const Eigen::Isometry3d base =
+      Eigen::Translation3d(2.5, -0.6, 0.3) * Eigen::AngleAxisd(1.7, Eigen::Vector3d(0.05, 0.17, 1.0).normalized());
+  for (std::size_t i = 0; i < 60; ++i) {
+    JointVector joints(4);
+    for (double& joint : joints) joint = random.real(-2.2, 2.2);
+    joints[2] = random.real(0.0, 0.2);
+    Eigen::Vector3d point_m = base * (forward(trial.chain, joints) * trial.tools_m.front());
+    for (double& coordinate : point_m) coordinate += 3e-5 * random.normal();
+    joints[2] *= -1.0;
+    trial.rows.push_back({joints, point_m, 0, 0, i});
+  }
+  return trial;
+}
+
+TEST(TrialFit, CountsNoFewerParametersThanNoneAndNoMoreThanThereAre) {
+  for (const double tilt_rad : {0.0, 1e-16, 2.1e-13, 1.7e-12, 1e-10, 1.7e-8, 1e-6}) {
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+      const Trial trial = hanging_slide(tilt_rad, seed);
+      const TrialFit placed = fit_base_and_tools(trial);
+      for (const TrialFit& fit : {placed, fit_arm(trial, placed), fit_arm_to_all(trial, placed)}) {
+        EXPECT_GE(fit.effective_parameters, 0.0) << tilt_rad;
+        EXPECT_LE(fit.effective_parameters, 6.0 + 3.0 + 16.0) << tilt_rad;
+        EXPECT_TRUE(std::isfinite(fit.deviation_m)) << tilt_rad;
+      }
+    }
+  }
 }
 
 }  // namespace
