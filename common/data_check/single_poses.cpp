@@ -45,6 +45,15 @@ std::string amount_at(const Joint& joint, double value) {
   return is_revolute(joint) ? fmt::format("{:.3f} deg", degrees(value)) : fmt::format("{:.3f} mm", millimetres(value));
 }
 
+/// A value that fits, without the whole turns by which the given one lies beyond the joint's limits.
+std::string in_place_of(const Joint& joint, double given, double value) {
+  const double middle = 0.5 * (joint.lower + joint.upper);
+  const bool turned = is_revolute(joint) && std::abs(given - middle) > 0.5 * (joint.upper - joint.lower) + kTurn_rad;
+  const double turns = turned ? std::round((value - middle) / kTurn_rad) : 0.0;
+  return fmt::format("{} in place of {}{}", amount_at(joint, value - turns * kTurn_rad), amount_at(joint, given),
+                     turned ? fmt::format(", which is {:.0f} whole turns and more away", std::abs(turns)) : "");
+}
+
 class OutlierSearch {
  public:
   OutlierSearch(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict, double least_m)
@@ -263,8 +272,8 @@ class OutlierSearch {
     const std::string change =
         typed->exchanged_with >= 0
             ? fmt::format("joints {} and {} are exchanged", typed->joint + 1, typed->exchanged_with + 1)
-            : fmt::format("joint {} is {} in place of {}", typed->joint + 1, amount_at(joint, typed->value),
-                          amount_at(joint, row.joints[typed->joint]));
+            : fmt::format("joint {} is {}", typed->joint + 1,
+                          in_place_of(joint, row.joints[typed->joint], typed->value));
     finding.sentence = fmt::format("{} fits if {}: {:.2f} mm off as given, {:.2f} mm if changed.", id(misfit.row),
                                    change, finding.as_given_mm, finding.if_changed_mm);
     return finding;

@@ -13,6 +13,7 @@
 #include "elbow_arm.hpp"
 #include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
+#include "kinematics/units.hpp"
 #include "random/random_stream.hpp"
 
 namespace demecal {
@@ -60,6 +61,15 @@ TEST(SinglePoses, WithAWrongCoordinateAreNamed) {
     EXPECT_THAT(said, ::testing::HasSubstr("p13 fits if its measured y is taken with the other sign")) << seed;
     EXPECT_THAT(said, ::testing::HasSubstr("p24 fits if its measured x and z are exchanged")) << seed;
   }
+}
+
+TEST(SinglePoses, WithAJointManyTurnsAwayAreNamedWithoutThem) {
+  DataSet data = measured_unevenly(2);
+  data.poses[13].joints[2] = radians(1e9);
+  const std::string said = said_of(data);
+  EXPECT_THAT(said, ::testing::HasSubstr("p13 fits if joint 3 is "));
+  EXPECT_THAT(said, ::testing::HasSubstr(" deg in place of 1000000000.000 deg, which is 277777"));
+  EXPECT_THAT(said, ::testing::Not(::testing::HasSubstr("99999"))) << "turned as often as what was given";
 }
 
 TEST(SinglePoses, AreNotNamedOfDataWithoutMistakes) {
