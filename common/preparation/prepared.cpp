@@ -181,6 +181,11 @@ std::vector<Eigen::Vector3d> differences(const Prepared& prepared, FrameKind kin
 DataSet prepared_data_set(const RawMeasurements& raw, const Prepared& prepared, std::optional<FrameKind> kind) {
   DataSet data;
   data.name = raw.name;
+  // Lines of its poses are those of the programs.
+  std::vector<std::string> programs;
+  for (const RawSet& set : raw.sets)
+    if (std::ranges::count(programs, set.joints.program.file) == 0) programs.push_back(set.joints.program.file);
+  data.file = joined_words(programs, ", ");
   data.robot = raw.robot;
   data.frame = kind ? Frame::base : Frame::sensor;
   const bool approach = all_have(prepared, &MeasuredPose::approach);

@@ -82,6 +82,7 @@ TEST(Prepared, KeepsRepeatsOrAveragesThem) {
   raw.sets[0].readings = read_readings(table_of(text), arm.cords);
   const Prepared prepared = prepare_measurements(raw);
   const DataSet averaged = prepared_data_set(raw, prepared, std::nullopt);
+  EXPECT_EQ(averaged.file, raw.sets.front().joints.program.file) << "the lines of the poses are that file's";
   ASSERT_THAT(averaged.poses, SizeIs(6));
   for (std::size_t p = 0; p < 6; ++p) EXPECT_LT((*averaged.poses[p].position_m - sums_m[p] / 3.0).norm(), 1e-9);
   raw.repeats = Repeats::keep;
