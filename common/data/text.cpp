@@ -113,13 +113,30 @@ std::size_t edit_distance(std::string_view from, std::string_view to) {
   return row[to.size()];
 }
 
+namespace {
+
+/// Whether a name is the other with words before or behind it: alpha_deg and alpha, standard_dh and dh.
+bool adds_words(std::string_view longer, std::string_view shorter) {
+  if (shorter.empty() || longer.size() <= shorter.size()) return false;
+  const std::size_t more = longer.size() - shorter.size();
+  return (longer.starts_with(shorter) && longer[shorter.size()] == '_') ||
+         (longer.ends_with(shorter) && longer[more - 1] == '_');
+}
+
+}  // namespace
+
 std::string nearest_name(std::string_view word, std::span<const std::string> names) {
   std::string nearest;
-  std::size_t smallest = std::numeric_limits<std::size_t>::max();
+  std::pair smallest{true, std::numeric_limits<std::size_t>::max()};
+  const std::string sought = lower_case(word);
   for (const std::string& name : names) {
-    const std::size_t distance = edit_distance(lower_case(word), lower_case(name));
-    if (distance >= smallest) continue;
-    smallest = distance;
+    const std::string known = lower_case(name);
+    const bool by_letters = !adds_words(known, sought) && !adds_words(sought, known);
+    const std::size_t distance = edit_distance(sought, known);
+    // A slip of one letter is likelier than words left out.
+    const std::pair far{by_letters && distance > 1, distance};
+    if (far >= smallest) continue;
+    smallest = far;
     nearest = name;
   }
   return nearest;

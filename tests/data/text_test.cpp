@@ -83,6 +83,16 @@ TEST(NearestName, IgnoresCaseAndTakesTheFirstOfEquals) {
   EXPECT_EQ(nearest_name("q7_deg", {}), "");
 }
 
+TEST(NearestName, IsOneThatOnlyHasMoreWords) {
+  const std::vector<std::string> keys{"type", "theta_offset_deg", "alpha_rad", "d_mm", "a_mm"};
+  EXPECT_EQ(nearest_name("alpha", keys), "alpha_rad");
+  EXPECT_EQ(nearest_name("d", keys), "d_mm");
+  EXPECT_EQ(nearest_name("theta_offset", keys), "theta_offset_deg");
+  EXPECT_EQ(nearest_name("tipe", keys), "type");
+  EXPECT_EQ(nearest_name("dh", std::vector<std::string>{"urdf", "standard_dh", "modified_dh"}), "standard_dh");
+  EXPECT_EQ(nearest_name("population", std::vector<std::string>{"population_size", "populations"}), "populations");
+}
+
 TEST(Words, AreJoinedAndCountedAsPeopleWriteThem) {
   EXPECT_EQ(joined_words(std::vector<std::string>{"a", "", "b c"}, ", "), "a, , b c");
   EXPECT_EQ(joined_words(std::vector<std::string>{"a"}, ", "), "a");
