@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
@@ -69,8 +70,14 @@ std::array<double, 2> read_joint_range(const YamlNode& node, const std::string& 
   if (!measured) return {joint.lower, joint.upper};
   const auto [lower, upper] = measured->node->range();
   const std::array<double, 2> range{measured->to_inside(lower), measured->to_inside(upper)};
-  if (range[0] < joint.lower || range[1] > joint.upper) measured->node->fail("", "reaches beyond the joint's limits");
-  return range;
+  if (range[0] >= joint.lower && range[1] <= joint.upper) return range;
+  const bool angle = is_revolute(joint);
+  const auto border = [&](double value) {
+    return angle ? number_text(value, degrees, radians) : number_text(value, millimetres, metres);
+  };
+  measured->node->fail("[" + number_text(lower) + ", " + number_text(upper) + "]",
+                       "reaches beyond the joint's limits, " + border(joint.lower) + " to " + border(joint.upper) +
+                           (angle ? " deg" : " mm") + "; narrow the range, or correct the limits in the robot file");
 }
 
 void read_joint_ranges(const YamlNode& node, Scenario& scenario) {
