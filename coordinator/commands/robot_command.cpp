@@ -7,6 +7,7 @@
 #include <iterator>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -61,15 +62,21 @@ JointVector joints_asked(const std::string& at, const Chain& chain) {
   for (std::size_t begin = 0, end = 0; begin <= at.size(); begin = end + 1) {
     end = std::min(at.find(',', begin), at.size());
     std::string field = at.substr(begin, end - begin);
-    std::erase_if(field, [](char c) { return c == ' ' || c == '[' || c == ']'; });
-    const auto value = parse_number(field);
-    if (!value)
-      throw ArgumentError(
-          fmt::format("--at {}: '{}' is no number; give one per joint, separated by commas", at, field));
-    values.push_back(*value);
+    std::erase_if(field, [](char c) { return c == '[' || c == ']'; });
+    std::istringstream words(field);
+    std::string word;
+    if (!(words >> word)) word.clear();
+    do {  // blanks may stand in place of commas
+      const auto value = parse_number(word);
+      if (!value)
+        throw ArgumentError(
+            fmt::format("--at {}: '{}' is no number; give one per joint, separated by commas", at, word));
+      values.push_back(*value);
+    } while (words >> word);
   }
   if (std::ssize(values) != chain.size())
-    throw ArgumentError(fmt::format("--at {}: {} numbers, but the arm has {} joints", at, values.size(), chain.size()));
+    throw ArgumentError(fmt::format("--at {}: {}, but the arm has {}", at, counted(values.size(), "number"),
+                                    counted(chain.joints.size(), "joint")));
   return joints_from_deg_or_mm(chain, values);
 }
 

@@ -78,6 +78,8 @@ TEST(Robot, BeyondItsLimitsIsShownWithAWarning) {
   EXPECT_EQ(Json::parse(shown.out)["warnings"].size(), 1u);
   EXPECT_EQ(run("demecal", {"robot", "show", robot, "--at", "1,2,3"}).code, 10);
   EXPECT_EQ(run("demecal", {"robot", "show", robot, "--at", "1,x"}).code, 10);
+  EXPECT_EQ(run("demecal", {"robot", "show", robot, "--at", "1,,2"}).code, 10);
+  EXPECT_EQ(run("demecal", {"robot", "show", robot, "--at", "170 1000", "--json"}).out, shown.out);
   EXPECT_EQ(run("demecal", {"robot", "import", robot, "--out", job.path("two.yaml")}).code, 11);
   EXPECT_EQ(run("demecal", {"robot", "import", kSeed, "--tip", "c", "--out", job.path("two.yaml")}).code, 11);
   EXPECT_FALSE(std::filesystem::exists(job.path("two.yaml")));
