@@ -25,9 +25,10 @@ struct FitOptions {
   int starts = 24;       ///< base orientations tried when the frame is the instrument's; 0: the start's base is trusted
   int start_poses = 60;  ///< poses used to rank the starts
   int max_iterations = 100;
-  double rank_tolerance = 1e-9;  ///< relative singular value below which a direction is held
-  bool robust = true;            ///< down-weights poses far out (Huber); costs 1 % of precision on clean data
-  bool refit_effects = true;     ///< frees the coefficients of the start's effects; otherwise they are kept
+  /// Relative singular value below which a direction is held: what shows by so little is determined to metres at best.
+  double rank_tolerance = 1e-6;
+  bool robust = true;         ///< down-weights poses far out (Huber); costs 1 % of precision on clean data
+  bool refit_effects = true;  ///< frees the coefficients of the start's effects; otherwise they are kept
   /// Standard deviations of a maker's link figures about the truth, m and rad; 0: nothing is assumed of them. They keep
   /// parameters that the poses hardly show from running away, and vanish beside those that the poses do show.
   double prior_m = kMakersDeviation_m;

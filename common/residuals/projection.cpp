@@ -19,7 +19,7 @@ Eigen::MatrixXd orthonormaliser(const ModelColumns& model, const RowMatrix& prio
   // Sums of squares are formed in vector registers, reflections are not. They lose twice as many digits, which are to
   // spare where no column is all but a sum of others.
   constexpr double kClearlyNew = 2e-5;
-  constexpr double kDependent = 1e-9;
+  constexpr double kDependent = 1e-6;  // as the fit: less is determined to metres at best
   const Eigen::Index n = model.precision.size();
   if (n == 0) return Eigen::MatrixXd(0, 0);
   Eigen::MatrixXd squares = square_product(model.fitted);

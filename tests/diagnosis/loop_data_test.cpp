@@ -45,6 +45,27 @@ std::vector<std::string> unseen(const LoopOutcome& outcome) {
   return kinds;
 }
 
+/// Two upright joints, a slide that hangs upside down but for `tilt_rad`, and a joint about it.
+Chain hanging_slide_arm(double tilt_rad) {
+  constexpr auto r = JointType::revolute;
+  return {Convention::standard_dh,
+          {link(r, 0, 0.325, 0.387), link(r, 2 * kRight + tilt_rad, 0.275, 0), link(JointType::prismatic, 0, 0, 0),
+           link(r, 0, 0, 0)},
+          {0.06, 0.02, 0.04}};
+}
+
+TEST(ClosedLoopData, MayBeOfAxesThatAreParallelButForATrace) {
+  LoopOptions options = quick();
+  options.max_effects = 0;
+  for (const double tilt_deg : {0.0, 1e-8, 3e-7, 1e-6, 3e-6, 1e-5, 3e-5, 1e-4, 3e-4, 1e-3}) {
+    const DataSet data = simulate(perfect_scenario(hanging_slide_arm(tilt_deg * kRight / 90), 24));
+    const Fit fit = fit_declared(data, poses_of(data, PoseSet::calibration), kAll, nominal_robot(data));
+    EXPECT_EQ(fit.status, FitStatus::converged) << tilt_deg;
+    EXPECT_LT(over_floor(fit.robot, data), 1.3) << tilt_deg;
+    EXPECT_LT(over_floor(close_loop(data, kAll, fit, options).before.robot, data), 1.3) << tilt_deg;
+  }
+}
+
 TEST(ClosedLoopData, MayBeFifteenPoses) {
   Scenario scenario = loose_arm(parallel_arm(), 1);
   const auto expect_sound_run = [&](std::array<int, 3> poses, const DeclaredModel& declared) {
