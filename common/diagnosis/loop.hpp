@@ -72,11 +72,11 @@ Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel
                                  const std::vector<Candidate>& candidates, LoopOutcome& outcome);
 
 /// The sum of squares (m^2) of what the model leaves of the fitted poses' positions, and the freedom they have left.
-struct PositionErrors {
+struct PositionSums {
   double squares = 0.0, freedom = 0.0;
 };
-PositionErrors position_errors(const DiagnosisProblem& problem, const Linearization& linearization,
-                               const RowScales& scales);
+PositionSums position_errors(const DiagnosisProblem& problem, const Linearization& linearization,
+                             const RowScales& scales);
 
 /// Brings the rounds up to date with the final model: added effects with their values in it; those that are no longer
 /// in it were not added after all.

@@ -100,10 +100,10 @@ const Effect* held_effect(const CorrectedRobot& model, const Effect& effect) {
 
 }  // namespace
 
-PositionErrors position_errors(const DiagnosisProblem& problem, const Linearization& linearization,
-                               const RowScales& scales) {
+PositionSums position_errors(const DiagnosisProblem& problem, const Linearization& linearization,
+                             const RowScales& scales) {
   const RowMatrix errors = unwhitened(linearization.fitted, linearization.errors);
-  PositionErrors sum;
+  PositionSums sum;
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i) {
     const Eigen::Index first = linearization.fitted.first_row[i];
     if (!problem.data.poses[linearization.fitted.poses[i]].position_m) continue;
