@@ -125,7 +125,7 @@ void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robo
     } else {
       round.verdict = Verdict::rejected;
       round.reason = "taken back: the model that was kept does without it";
-      const auto is_it = [&](const Effect& effect) { return effect.same_law_as(round.effect); };
+      const auto is_it = [&](const Effect& one) { return one.same_law_as(round.effect); };
       if (std::ranges::none_of(outcome.dropped, is_it)) outcome.dropped.push_back(round.effect);
     }
   }

@@ -260,7 +260,7 @@ TEST(RowGroups, AJointOffInASetThatWasNotFittedIsToldFromATurnedFrame) {
       const Finding& finding = check.findings.front();
       // The first joint turns all points about the base, as another frame does.
       EXPECT_EQ(finding.kind, joint == 0 ? FindingKind::set_in_other_frame : FindingKind::joint_offset) << of;
-      if (joint != 0) EXPECT_EQ(finding.joint, joint) << of;
+      EXPECT_EQ(finding.joint, joint == 0 ? -1 : joint) << of;
     }
   }
 }
