@@ -128,15 +128,6 @@ void mark_untestable(std::vector<NotFound>& not_found, const Robot& robot, const
   }
 }
 
-/// What was found and taken back is not below a limit that it exceeds.
-void raise_to_what_was_found(const std::vector<Effect>& taken_back, std::vector<NotFound>& not_found) {
-  for (NotFound& missing : not_found)
-    for (const Effect& effect : taken_back)
-      if (effect.kind == missing.effect.kind && effect.joint == missing.effect.joint)
-        for (const double value : effect.values)
-          missing.smallest_detectable = std::max(missing.smallest_detectable, std::abs(value));
-}
-
 /// The candidates that were refused as larger than a real arm's effects.
 std::vector<std::size_t> refused(const std::vector<Candidate>& candidates, const std::vector<Round>& rounds) {
   std::vector<std::size_t> found;
@@ -169,6 +160,20 @@ std::vector<UntestableKind> hidden_kinds(const FinishedLoop& loop, const std::ve
 
 }  // namespace
 
+void raise_to_what_was_found(const std::vector<Effect>& taken_back, const Robot& robot,
+                             std::vector<NotFound>& not_found) {
+  for (NotFound& missing : not_found) {
+    for (const Effect& effect : taken_back) {
+      if (effect.kind != missing.effect.kind || effect.joint != missing.effect.joint) continue;
+      const std::vector<CoefficientLabel> labels = law_of(effect).coefficients(effect, robot);
+      double size = 0.0;
+      for (std::size_t i = 0; i < std::min(labels.size(), effect.values.size()); ++i)
+        if (labels[i].unit == missing.unit) size = std::hypot(size, effect.values[i]);
+      missing.smallest_detectable = std::max(missing.smallest_detectable, size);
+    }
+  }
+}
+
 void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxima, const BoundOptions& options,
                  RandomStream random, LoopOutcome& outcome) {
   Projection beyond = loop.linearization.projection;
@@ -196,7 +201,7 @@ void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxim
                                                    .variance = variance,
                                                    .poses = loop.linearization.fitted.poses.size()});
   mark_untestable(all, loop.robot, loop.linearization.fitted.states);
-  raise_to_what_was_found(outcome.dropped, all);
+  raise_to_what_was_found(outcome.dropped, loop.robot, all);
   outcome.not_found = std::move(all);
   std::ranges::move(hidden_kinds(loop, scores), std::back_inserter(outcome.untestable));
 }

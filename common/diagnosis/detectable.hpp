@@ -43,6 +43,11 @@ struct Detection {
 std::vector<NotFound> smallest_detectable(const std::vector<DetectableCandidate>& candidates,
                                           const CorrectedRobot& model, const Robot& robot, const Detection& detection);
 
+/// An effect that was found and taken back is not below a limit that it exceeds: by its coefficients of the limit's
+/// unit.
+void raise_to_what_was_found(const std::vector<Effect>& taken_back, const Robot& robot,
+                             std::vector<NotFound>& not_found);
+
 /// What a loop ended with.
 struct FinishedLoop {
   const Robot& robot;

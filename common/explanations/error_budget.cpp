@@ -89,7 +89,8 @@ class JudgedSets {
   void offer(const std::vector<EffectSet>& sets, bool last) { offer(sets, last, 1.0); }
 
   /// What each set is without one of its causes. Sets were searched for by the fitted poses, in which some causes
-  /// hardly show: such a set may judge better than what was found of as many causes.
+  /// hardly show: such a set may judge far better than what was found of as many causes. Where it does a little
+  /// better, that is chance as often as not.
   void offer_without_causes(const ExplanationProblem& problem) {
     constexpr double kFarBetter = 0.8;       ///< ratio of rms errors
     constexpr std::size_t kMostCauses = 12;  ///< more than a person looks at are left as they are
@@ -113,22 +114,21 @@ class JudgedSets {
  private:
   static std::size_t causes_of_set(const JudgedSet& one) { return one.point.causes; }
 
-  /// The same; what stands there gives way to less than `share` of its error.
+  /// The same; what stands there gives way to less than `share` of its error, and below a share of 1 a number of
+  /// causes that nothing stands for yet is taken only where it errs less than fewer causes do.
   void offer(const std::vector<EffectSet>& sets, bool last, double share) {
     std::vector<SquaredErrors_mm2> errors(sets.size());
     in_pieces(sets.size(), [&](std::size_t i) { errors[i] = errors_of_(sets[i].effects); });
     for (std::size_t i = 0; i < sets.size(); ++i) {
       JudgedSet one{{sets[i].effects, sets[i].causes, std::sqrt(mean(errors[i]))}, std::move(errors[i])};
       const auto place = std::ranges::lower_bound(all_, one.point.causes, {}, causes_of_set);
-      const bool is_new = place == all_.end() || place->point.causes != one.point.causes;
-      const bool is_worth_it = share == 1.0 || place == all_.begin() ||
-                               one.point.validation_rms_mm < std::prev(place)->point.validation_rms_mm;
-      if (is_new && is_worth_it)
-        all_.insert(place, std::move(one));
-      else if (is_new)
-        continue;
-      else if (last || one.point.validation_rms_mm < share * place->point.validation_rms_mm)
+      if (place == all_.end() || place->point.causes != one.point.causes) {
+        const bool gains =
+            place == all_.begin() || one.point.validation_rms_mm < std::prev(place)->point.validation_rms_mm;
+        if (share == 1.0 || gains) all_.insert(place, std::move(one));
+      } else if (last || one.point.validation_rms_mm < share * place->point.validation_rms_mm) {
         *place = std::move(one);
+      }
     }
   }
 

@@ -42,12 +42,12 @@ struct ExplanationFront {
 
 /// Judges sets of the effects by the errors they leave at problem.validation (where there are no such poses at those
 /// that were fitted, and the most causes are chosen), poses in gross error by `model` left out: a model of every set to
-/// first order about `model`. `sets` are by number of causes, from none; of several of a number, and of what sets of
-/// one cause more are without any of theirs, the one of the least error stands for it (without poses that judge the
-/// last). Of them the one of the fewest causes is chosen whose error is at most 1.02 times the least and whose mean
-/// square is within one standard error of it (paired), or that of ten causes or more whose error is at most 1.05 times
-/// the least. Not none where `model` has causes and the next set errs less: that there is a cause the loop's tests have
-/// said, and what is left to choose is how many.
+/// first order about `model`. `sets` are by number of causes, from none; of several of a number the one of the least
+/// error stands for it (without poses that judge the last), unless what a set of one cause more is without one of its
+/// causes errs far less (0.8 times). Of them the one of the fewest causes is chosen whose error is at most 1.02 times
+/// the least and whose mean square is within one standard error of it (paired), or that of ten causes or more whose
+/// error is at most 1.05 times the least. Not none where `model` has causes and the next set errs less: that there is a
+/// cause the loop's tests have said, and what is left to choose is how many.
 ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
                               std::vector<PricedEffect> effects, const std::vector<EffectSet>& sets);
 

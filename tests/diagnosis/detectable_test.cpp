@@ -154,5 +154,22 @@ TEST(SmallestDetectable, IsNotStatedForWhatTheModelHoldsOrCannotShow) {
   EXPECT_TRUE(not_found(tested).empty());
 }
 
+TEST(WhatWasFound, RaisesTheLimitOfItsKindAndJointByWhatHasItsUnit) {
+  RandomStream stream{85, 7};
+  const Robot robot = laden_arm(stream, Arm::standard);
+  Effect taken_back{.kind = "backlash", .joint = 1, .settings = {}, .form = "seated"};
+  for (const CoefficientLabel& label : law_of(taken_back).coefficients(taken_back, robot))
+    taken_back.values.push_back(label.unit == "rad" ? 1e-3 : 4.0);
+  ASSERT_FALSE(taken_back.values.empty());
+  std::vector<NotFound> limits{{{.kind = "backlash", .joint = 1}, 2e-4, "rad"},
+                               {{.kind = "backlash", .joint = 1}, 2e-3, "rad"},
+                               {{.kind = "backlash", .joint = 2}, 2e-4, "rad"},
+                               {{.kind = "gain", .joint = 1}, 2e-4, "1"}};
+  raise_to_what_was_found({taken_back}, robot, limits);
+  EXPECT_DOUBLE_EQ(limits[0].smallest_detectable, 1e-3);
+  for (const std::size_t kept : {1u, 2u, 3u})
+    EXPECT_DOUBLE_EQ(limits[kept].smallest_detectable, kept == 1 ? 2e-3 : 2e-4);
+}
+
 }  // namespace
 }  // namespace demecal

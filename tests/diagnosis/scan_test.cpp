@@ -186,7 +186,9 @@ TEST(Scan, RivalsAreNoMoreAlikeForErrorsThatPosesShare) {
   const auto products = tested.columns.transposed_times(tested.field, trial.columns());
   RowMatrix direction(rows + model.prior_basis().rows(), 1);
   direction << trial.fitted * trial.coefficients, trial.prior * trial.coefficients;
-  for (const Rival& rival : rivals_of(kNamed, trial, products, candidates, scan.scores(), scan)) {
+  const std::vector<Rival> rivals = rivals_of(kNamed, trial, products, candidates, scan.scores(), scan);
+  EXPECT_FALSE(rivals.empty());
+  for (const Rival& rival : rivals) {
     const RowMatrix dense = tested.columns.dense(tested.field, static_cast<std::size_t>(rival.effect.joint));
     const Projection::Trial other = model.trial(dense, dense);
     RowMatrix left(direction.rows(), other.rank);
