@@ -102,16 +102,38 @@ std::vector<std::size_t> prefixed_joints(const NamedColumns& named, std::size_t 
   return {};
 }
 
+/// Words at the beginning, before the number and at the end of a heading.
+struct WordsAround {
+  std::string_view before{}, between{}, after{};
+};
+
 /// Joints counted from one, or from zero as recorders of UR arms do.
-std::vector<std::size_t> joint_columns(const NamedColumns& named, std::size_t joints) {
+std::vector<std::size_t> numbered_joints(const NamedColumns& named, std::size_t joints, const WordsAround& words) {
   for (const std::string_view ending : kJointEndings) {
+    const std::string behind = std::string(ending).append(words.after);
     for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
       for (const std::string_view stem : kJointStems) {
-        auto columns = named.all_of(numbered_names(stem, from, joints, ending));
+        const std::string ahead = std::string(words.before).append(stem).append(words.between);
+        auto columns = named.all_of(numbered_names(ahead, from, joints, behind));
         if (!columns.empty()) return columns;
       }
     }
   }
+  return {};
+}
+
+/// Those that say that they are commanded before any others: programs command, and encoders tell nearly the same.
+std::vector<std::size_t> joint_columns(const NamedColumns& named, std::size_t joints) {
+  for (const std::string_view word :
+       {"cmd", "command", "commanded", "target", "desired", "setpoint", "reference", "ref", "soll"}) {
+    for (const WordsAround& words :
+         {WordsAround{.before = word}, WordsAround{.between = word}, WordsAround{.after = word}}) {
+      auto columns = numbered_joints(named, joints, words);
+      if (!columns.empty()) return columns;
+    }
+  }
+  const auto bare = numbered_joints(named, joints, {});
+  if (!bare.empty()) return bare;
   for (const std::size_t from : {std::size_t{1}, std::size_t{0}}) {
     auto columns = prefixed_joints(named, from, joints);
     if (!columns.empty()) return columns;

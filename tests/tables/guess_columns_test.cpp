@@ -32,6 +32,15 @@ TEST(GuessedColumns, KnowJointsUnderTheNamesOfControllers) {
   EXPECT_THAT(joints_under("t\tJ1 Speed\tJ2 Speed\tJ3 Speed", 3), IsEmpty());
 }
 
+TEST(GuessedColumns, TakeCommandedJointsBeforeMeasuredOnes) {
+  for (const char* headings :
+       {"actual_q_0\tactual_q_1\ttarget_q_0\ttarget_q_1", "q1\tq2\tq1_cmd\tq2_cmd",
+        "J1 [deg]\tJ2 [deg]\tJ1_cmd [deg]\tJ2_cmd [deg]", "joint_1\tjoint_2\tcommanded_joint_1\tcommanded_joint_2",
+        "Achse 1\tAchse 2\tAchse 1 Soll\tAchse 2 Soll", "q_act_1\tq_act_2\tq_ref_1\tq_ref_2"})
+    EXPECT_THAT(joints_under(headings, 2), ElementsAre(2, 3)) << headings;
+  EXPECT_THAT(joints_under("q1\tq2\ttarget_qd_0\ttarget_qd_1", 2), ElementsAre(0, 1)) << "speeds";
+}
+
 TEST(GuessedColumns, PutRailsBeforeTheArmThatTheyCarry) {
   for (const char* headings : {"A1\tA2\tA3\tE1 [mm]", "rax_1\trax_2\trax_3\teax_a", "J1\tJ2\tJ3\tE1",
                                "Achse 1\tAchse 2\tAchse 3\tZusatzachse 1", "q1\tq2\tq3\trail [m]"}) {
