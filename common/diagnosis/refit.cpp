@@ -148,13 +148,12 @@ void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedMode
                             std::vector<Round>& rounds) {
   constexpr std::size_t kMost = 3;
   if (!has_instrument(problem.data)) return;  // poses that nothing measures: a contact cannot be had anywhere
-  std::vector<Round*> asked;
-  for (Round& round : rounds)
-    if (asked.size() < kMost && is_ambiguous(round, rounds)) asked.push_back(&round);
-  in_pieces(asked.size(), [&](std::size_t i) {
-    Round& round = *asked[i];
+  std::size_t asked = 0;
+  for (Round& round : rounds) {
+    if (asked == kMost || !is_ambiguous(round, rounds)) continue;
+    ++asked;
     round.next_measurement = find_next_measurement(problem, model, round.effect, round.rivals, random);
-  });
+  }
 }
 
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,

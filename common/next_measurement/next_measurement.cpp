@@ -16,6 +16,7 @@
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
 #include "parameters/declared_model.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
@@ -54,20 +55,17 @@ class RivalComparison {
     sums_ = Eigen::MatrixXd::Zero(signal_ + 1, signal_ + 1);
   }
 
-  /// The named effect's separation by an experiment from each rival; see poses_needed().
-  Separation separation(const Experiment& experiment) {
-    const DataSet data = posterior_.predicted(experiment.stops);
-    const ResidualField next = posterior_.field(data);
-    const SmoothCorrections beyond = terms_beyond(data, experiment.widened);
-    const RowMatrix all_at_hand = beside(asked_at_hand_, beyond.columns(posterior_.present()));
-    const Products at_hand = products(model_at_hand_, all_at_hand, posterior_.weight());
-    const double share = static_cast<double>(experiment.stops_per_pose) / static_cast<double>(data.poses.size());
-    const Products per_pose =
-        products(posterior_.model_columns(next), beside(asked(next), beyond.columns(next)), share);
-    sums_ += (at_hand.asked + per_pose.asked).topLeftCorner(signal_ + 1, signal_ + 1);
-    Eigen::VectorXd precision = Eigen::VectorXd::Zero(at_hand.asked.cols());
-    precision.tail(precision.size() - signal_ - 1).setConstant(1.0 / (kOwnBelief_rad * kOwnBelief_rad));
-    return {at_hand, per_pose, precision};
+  /// The named effect's separation by each of the experiments from each rival; see poses_needed().
+  std::vector<Separation> separations(const std::vector<Experiment>& experiments) {
+    std::vector<std::optional<Separation>> separated(experiments.size());
+    std::vector<Eigen::MatrixXd> sums(experiments.size());
+    in_pieces(experiments.size(), [&](std::size_t i) { separated[i] = separation(experiments[i], sums[i]); });
+    std::vector<Separation> all;
+    for (std::size_t i = 0; i < experiments.size(); ++i) {
+      all.push_back(std::move(*separated[i]));
+      sums_ += sums[i];
+    }
+    return all;
   }
 
   /// The rival's columns that stand against the signal, given all experiments so far: all of them, or those that have
@@ -98,6 +96,22 @@ class RivalComparison {
   }
 
  private:
+  /// `sums`: what the experiment adds to sums_.
+  Separation separation(const Experiment& experiment, Eigen::MatrixXd& sums) const {
+    const DataSet data = posterior_.predicted(experiment.stops);
+    const ResidualField next = posterior_.field(data);
+    const SmoothCorrections beyond = terms_beyond(data, experiment.widened);
+    const RowMatrix all_at_hand = beside(asked_at_hand_, beyond.columns(posterior_.present()));
+    const AskedProducts at_hand = asked_products(model_at_hand_, all_at_hand, posterior_.weight());
+    const double share = static_cast<double>(experiment.stops_per_pose) / static_cast<double>(data.poses.size());
+    const RowMatrix model = posterior_.model_columns(next);
+    const AskedProducts per_pose = asked_products(model, beside(asked(next), beyond.columns(next)), share);
+    sums = (at_hand.asked + per_pose.asked).topLeftCorner(signal_ + 1, signal_ + 1);
+    Eigen::VectorXd precision = Eigen::VectorXd::Zero(at_hand.asked.cols());
+    precision.tail(precision.size() - signal_ - 1).setConstant(1.0 / (kOwnBelief_rad * kOwnBelief_rad));
+    return {at_hand, per_pose, share * square_product(model), precision};
+  }
+
   static DiagnosedModel with(DiagnosedModel model, const Effect& named) {
     const auto is_it = [&](const Effect& effect) { return effect.same_law_as(named); };
     if (std::ranges::none_of(model.robot.effects, is_it)) model.robot.effects.push_back(named);
@@ -157,8 +171,7 @@ std::optional<ExperimentChoice> simplest_sufficient(const std::vector<Experiment
 
 std::vector<RivalSeparation> separate(RivalComparison& comparison, const std::vector<Experiment>& all,
                                       std::size_t rivals) {
-  std::vector<Separation> separations;
-  for (const Experiment& experiment : all) separations.push_back(comparison.separation(experiment));
+  const std::vector<Separation> separations = comparison.separations(all);
   std::vector<RivalSeparation> separated(rivals);
   for (std::size_t i = 0; i < rivals; ++i) {
     const Columns opposing_columns = comparison.opposing_columns(i);

@@ -94,18 +94,19 @@ Eigen::MatrixXd root(const Eigen::MatrixXd& covariance) {
 
 }  // namespace
 
-Products products(const RowMatrix& model, const RowMatrix& asked, double weight) {
-  return {weight * square_product(model), weight * transposed_product(model, asked), weight * square_product(asked)};
+AskedProducts asked_products(const RowMatrix& model, const RowMatrix& asked, double weight) {
+  return {weight * transposed_product(model, asked), weight * square_product(asked)};
 }
 
-Separation::Separation(const Products& present, const Products& per_pose, const Eigen::VectorXd& precision) {
+Separation::Separation(const AskedProducts& present, const AskedProducts& per_pose,
+                       const Eigen::MatrixXd& model_per_pose, const Eigen::VectorXd& precision) {
   present_ = present.cross;
   per_pose_ = per_pose.cross;
   asked_ = present.asked;
   asked_per_pose_ = per_pose.asked;
   asked_.diagonal() += precision;
-  if (per_pose.model.size() == 0) return;
-  const auto eigen = eigen_system(per_pose.model);
+  if (model_per_pose.size() == 0) return;
+  const auto eigen = eigen_system(model_per_pose);
   spread_ = eigen.values.cwiseMax(0.0);
   present_ = eigen.vectors.transpose() * present_;
   per_pose_ = eigen.vectors.transpose() * per_pose_;
@@ -199,7 +200,7 @@ RowMatrix PosteriorModel::model_columns(const ResidualField& field) const {
   RowMatrix all(field.rows(), field.declared.cols() + model_.smooth.coefficients.size());
   all << field.declared, model_.smooth.columns(field);
   const RowMatrix kept = all(Eigen::all, kept_);
-  return kept * to_units_;
+  return product(kept, to_units_);
 }
 
 RowMatrix PosteriorModel::effect_columns(const std::vector<Effect>& effects, const ResidualField& field) const {

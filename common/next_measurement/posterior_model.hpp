@@ -14,20 +14,20 @@
 
 namespace demecal::inline next_measurement {
 
-/// Sums of products of the model's columns and of those asked about, over rows of unit variance.
-struct Products {
-  Eigen::MatrixXd model;  ///< r x r
+/// Sums of products of the model's columns (r) and of those asked about (k), over rows of unit variance.
+struct AskedProducts {
   Eigen::MatrixXd cross;  ///< r x k
   Eigen::MatrixXd asked;  ///< k x k
 };
-Products products(const RowMatrix& model, const RowMatrix& asked, double weight);
+AskedProducts asked_products(const RowMatrix& model, const RowMatrix& asked, double weight);
 
 class Separation {
  public:
-  /// `present`: of the poses at hand, in coordinates of the model that they know to one unit (its own products are not
-  /// used); `per_pose`: the mean of a further pose; `precision`: of what is believed of the asked columns'
-  /// coefficients, one over their variance (k).
-  Separation(const Products& present, const Products& per_pose, const Eigen::VectorXd& precision);
+  /// `present`: of the poses at hand, in coordinates of the model that they know to one unit; `per_pose`: the mean of a
+  /// further pose, and `model_per_pose` (r x r) that of the model's products with each other; `precision`: of what is
+  /// believed of the asked columns' coefficients, one over their variance (k).
+  Separation(const AskedProducts& present, const AskedProducts& per_pose, const Eigen::MatrixXd& model_per_pose,
+             const Eigen::VectorXd& precision);
 
   /// How many columns are asked about.
   Eigen::Index columns() const { return asked_.cols(); }

@@ -118,8 +118,9 @@ class InformationMatrix {
 /// The columns asked about, less what of them the poses at hand lay to the model's, in coordinates known to one unit.
 RowMatrix asked_rows(const PosteriorModel& posterior, const std::vector<Effect>& asked, const ResidualField& field,
                      const RowMatrix& model_rows) {
-  const Products at_hand = products(posterior.model_columns(posterior.present()),
-                                    posterior.effect_columns(asked, posterior.present()), posterior.weight());
+  const AskedProducts at_hand =
+      asked_products(posterior.model_columns(posterior.present()), posterior.effect_columns(asked, posterior.present()),
+                     posterior.weight());
   RowMatrix rows = posterior.effect_columns(asked, field);
   Eigen::MatrixXd known = at_hand.asked - at_hand.cross.transpose() * at_hand.cross;
   for (Eigen::Index i = 0; i < known.cols(); ++i) {

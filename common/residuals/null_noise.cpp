@@ -191,9 +191,9 @@ Eigen::MatrixXd NullResiduals::draw(Eigen::Index count, RandomStream& random) co
     random.normals({others.col(i).data(), static_cast<std::size_t>(others.rows())});
     beliefs.col(i) = noise_.draw_beliefs(random);
   }
-  const Eigen::MatrixXd along =
-      basis_.transpose() * rows + others_root_ * others + noise_.model_.prior_basis().transpose() * beliefs;
-  Eigen::MatrixXd left = rows - basis_ * along;
+  const Eigen::MatrixXd along = transposed_product(basis_, rows) + others_root_ * others +
+                                transposed_product(noise_.model_.prior_basis(), beliefs);
+  Eigen::MatrixXd left = rows - product(basis_, along);
   for (Eigen::Index i = 0; i < count; ++i) {
     const double whole = squares_ + beliefs.col(i).squaredNorm() - along.col(i).squaredNorm();
     if (whole > 0) left.col(i) *= std::sqrt(noise_.model_.squares() / whole);

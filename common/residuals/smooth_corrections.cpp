@@ -136,6 +136,39 @@ void prune(Eigen::Ref<Eigen::VectorXd> belief, std::span<const int> families, co
   for (std::size_t i = 0; i < taken; ++i) belief[unsure[i].second] = kGone;
 }
 
+/// Where rounding leaves it singular, by pivots.
+Eigen::MatrixXd inverse_of_positive(const Eigen::MatrixXd& a) {
+  const Cholesky solver(a);
+  if (solver.succeeded()) return solver.inverse();
+  return PivotedCholesky(a).solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
+}
+
+struct Coefficients {
+  Eigen::VectorXd mean, spread;  ///< what is certain counts as zero
+  double explained = 0.0;        ///< of the sum of squares
+};
+
+/// Of rows with these products, where so much is added to the diagonal; those with `certain` take no part, for most
+/// terms soon are out for good.
+Coefficients most_probable(const Eigen::MatrixXd& gram, const Eigen::VectorXd& moment, const Eigen::VectorXd& added,
+                           double certain) {
+  std::vector<Eigen::Index> in;
+  for (Eigen::Index i = 0; i < added.size(); ++i) {
+    if (added[i] < certain) in.push_back(i);
+  }
+  const Eigen::MatrixXd own = gram(in, in);
+  const Eigen::VectorXd own_moment = moment(in);
+  Eigen::MatrixXd precision = own;
+  precision.diagonal() += added(in);
+  const Eigen::MatrixXd inverse = inverse_of_positive(precision);
+  const Eigen::VectorXd mean = inverse * own_moment;
+  Coefficients all{Eigen::VectorXd::Zero(added.size()), added.cwiseInverse(),
+                   2.0 * mean.dot(own_moment) - mean.dot(own * mean)};
+  all.mean(in) = mean;
+  all.spread(in) = inverse.diagonal();
+  return all;
+}
+
 /// MacKay's update of the terms' beliefs, each as if kShared more terms of its family's mean square had been seen.
 void update(Eigen::Ref<Eigen::VectorXd> belief, std::span<const int> families, const Eigen::VectorXd& known,
             const Eigen::VectorXd& mean, const Eigen::VectorXd& scale) {
@@ -235,12 +268,8 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& products, std::span<const int> 
   }
   double variance = 1.0;
   for (int round = 0; round < kRounds; ++round) {
-    Eigen::MatrixXd posterior = scaled;
-    posterior.diagonal() += variance * belief;
-    const PivotedCholesky solver(posterior);
-    const Eigen::MatrixXd inverse = solver.solve(Eigen::MatrixXd::Identity(n, n));
-    const Eigen::VectorXd mean = inverse * scaled_moment;
-    const Eigen::VectorXd spread = inverse.diagonal().tail(terms), means = mean.tail(terms);
+    const Coefficients now = most_probable(scaled, scaled_moment, variance * belief, variance * kGone);
+    const Eigen::VectorXd means = now.mean.tail(terms), spread = now.spread.tail(terms);
     const Eigen::VectorXd known =
         (1.0 - variance * belief.tail(terms).cwiseProduct(spread).array()).max(1e-12).min(1.0);
     const double determined = static_cast<double>(fixed) + known.sum();
@@ -248,8 +277,7 @@ Eigen::VectorXd relevance(const Eigen::MatrixXd& products, std::span<const int> 
     if (round % kPruneEvery == kPruneEvery - 1) {
       prune(belief.tail(terms), families, means.cwiseAbs().cwiseQuotient((variance * spread).cwiseSqrt()));
     }
-    const double squares = whole - 2.0 * mean.dot(scaled_moment) + mean.dot(scaled * mean);
-    variance = std::max(squares, 1e-12 * whole) / std::max(rows - determined, 1.0);
+    variance = std::max(whole - now.explained, 1e-12 * whole) / std::max(rows - determined, 1.0);
   }
   Eigen::VectorXd precision(terms);
   for (Eigen::Index i = 0; i < terms; ++i) {

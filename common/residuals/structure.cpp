@@ -132,44 +132,61 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
   return all;
 }
 
-/// Every pose's residual (its rows one pose after another) as an error of each joint: poses x joints, columns of unit
-/// norm.
-Eigen::MatrixXd joint_errors(const ResidualField& field, const std::vector<std::size_t>& poses,
-                             const Eigen::VectorXd& residual, const Chain& chain) {
-  Eigen::MatrixXd errors(static_cast<Eigen::Index>(poses.size()), chain.size());
-  Eigen::Index at = 0;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Eigen::Index first = field.first_row[poses[i]];
-    const Eigen::Index count = field.rows_of_pose(poses[i]);
-    const auto rows = residual.segment(at, count);
-    at += count;
-    for (int joint = 0; joint < chain.size(); ++joint) {
-      const bool revolute = is_revolute(chain, joint);
-      const auto column = field.motions.block(first, motion_column(joint, revolute ? 5 : 2), count, 1);
-      const double length = column.norm();
-      errors(static_cast<Eigen::Index>(i), joint) = length > 1e-12 ? column.col(0).dot(rows) / length : 0.0;
-    }
-  }
-  for (Eigen::Index joint = 0; joint < errors.cols(); ++joint) {
-    const double norm = errors.col(joint).norm();
-    if (norm > 0) errors.col(joint) /= norm;
-  }
-  return errors;
-}
-
-Eigen::VectorXd agreements(const Eigen::MatrixXd& errors, const std::vector<Pairs>& all) {
-  Eigen::VectorXd result(errors.cols() * static_cast<Eigen::Index>(all.size()));
-  Eigen::Index at = 0;
-  for (const Pairs& pairs : all) {
-    for (Eigen::Index joint = 0; joint < errors.cols(); ++joint, ++at) {
-      double sum = 0.0;
-      for (const auto& [a, b] : pairs) {
-        sum += errors(static_cast<Eigen::Index>(a), joint) * errors(static_cast<Eigen::Index>(b), joint);
+/// What a radian (or metre) of each joint does to the rows of some poses, one pose after another.
+class JointColumns {
+ public:
+  JointColumns(const ResidualField& field, const std::vector<std::size_t>& poses, const Chain& chain)
+      : lengths_(static_cast<Eigen::Index>(poses.size()), chain.size()) {
+    Eigen::Index rows = 0;
+    for (const std::size_t pose : poses) rows += field.rows_of_pose(pose);
+    columns_.resize(rows, chain.size());
+    Eigen::Index at = 0;
+    for (const std::size_t pose : poses) {
+      const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
+      for (int joint = 0; joint < chain.size(); ++joint) {
+        const int axis = is_revolute(chain, joint) ? 5 : 2;
+        const auto column = field.motions.block(first, motion_column(joint, axis), count, 1);
+        columns_.block(at, joint, count, 1) = column;
+        lengths_(static_cast<Eigen::Index>(counts_.size()), joint) = column.norm();
       }
-      result[at] = sum;
+      counts_.push_back(count);
+      at += count;
     }
   }
-  return result;
+
+  /// Every pose's residual as an error of each joint: poses x joints, columns of unit norm.
+  RowMatrix errors(const Eigen::VectorXd& residual) const {
+    RowMatrix errors = RowMatrix::Zero(lengths_.rows(), lengths_.cols());
+    Eigen::Index row = 0;
+    for (Eigen::Index pose = 0; pose < errors.rows(); ++pose) {
+      for (const Eigen::Index end = row + counts_[static_cast<std::size_t>(pose)]; row < end; ++row)
+        errors.row(pose) += residual[row] * columns_.row(row);
+    }
+    errors = (lengths_.array() > kNothing).select(errors.cwiseQuotient(lengths_), 0.0);
+    for (Eigen::Index joint = 0; joint < errors.cols(); ++joint) {
+      const double norm = errors.col(joint).norm();
+      if (norm > 0) errors.col(joint) /= norm;
+    }
+    return errors;
+  }
+
+ private:
+  static constexpr double kNothing = 1e-12;
+
+  RowMatrix columns_, lengths_;
+  std::vector<Eigen::Index> counts_;  ///< rows of each pose
+};
+
+/// Sums over pairs of the products of their errors, joint by joint in each circumstance.
+Eigen::VectorXd agreements(const RowMatrix& errors, const std::vector<Pairs>& all) {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(errors.cols(), static_cast<Eigen::Index>(all.size()));
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    auto sum = sums.col(static_cast<Eigen::Index>(i));
+    for (const auto& [a, b] : all[i])
+      sum +=
+          errors.row(static_cast<Eigen::Index>(a)).cwiseProduct(errors.row(static_cast<Eigen::Index>(b))).transpose();
+  }
+  return sums.reshaped();
 }
 
 }  // namespace
@@ -182,15 +199,15 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   if (all.empty()) return 1.0;
   const NullNoise noise(field, model);
   const NullResiduals of_noise(noise, poses);
-  const Eigen::VectorXd seen = agreements(joint_errors(field, poses, model.residual()(of_noise.rows()), chain), all);
+  const JointColumns joints(field, poses, chain);
+  const Eigen::VectorXd seen = agreements(joints.errors(model.residual()(of_noise.rows())), all);
   Eigen::MatrixXd null(seen.size(), draws);
   const std::uint64_t name = random.name();
   in_pieces(static_cast<std::size_t>((draws + kDrawsAtATime - 1) / kDrawsAtATime), [&](std::size_t piece) {
     const Eigen::Index done = static_cast<Eigen::Index>(piece) * kDrawsAtATime;
     RandomStream own{name, piece};
     const Eigen::MatrixXd drawn = of_noise.draw(std::min<Eigen::Index>(kDrawsAtATime, draws - done), own);
-    for (Eigen::Index i = 0; i < drawn.cols(); ++i)
-      null.col(done + i) = agreements(joint_errors(field, poses, drawn.col(i), chain), all);
+    for (Eigen::Index i = 0; i < drawn.cols(); ++i) null.col(done + i) = agreements(joints.errors(drawn.col(i)), all);
   });
   const Eigen::VectorXd mean = null.rowwise().mean();
   const Eigen::VectorXd deviation =
