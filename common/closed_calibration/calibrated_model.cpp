@@ -3,8 +3,10 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <iterator>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "decompositions/decompositions.hpp"
@@ -110,6 +112,28 @@ Eigen::MatrixXd triangular_root(const Eigen::MatrixXd& covariance) {
   return deviations.asDiagonal() * upper_factor(root.transpose()).transpose();
 }
 
+/// FNV-1a of the joints and of what was measured, to 1e-7 rad or m: units and ways of writing them aside.
+std::uint64_t mark_of(const MeasuredPose& pose) {
+  constexpr std::uint64_t kBasis = 0xcbf29ce484222325, kPrime = 0x100000001b3;
+  constexpr double kPerUnit = 1e7;
+  std::uint64_t mark = kBasis;
+  const auto take = [&](double value) {
+    const auto steps = static_cast<std::uint64_t>(std::llround(value * kPerUnit));
+    for (int byte = 0; byte < 8; ++byte) mark = (mark ^ ((steps >> (8 * byte)) & 0xff)) * kPrime;
+  };
+  for (const double joint : pose.joints) take(joint);
+  if (pose.position_m)
+    for (const double along : *pose.position_m) take(along);
+  for (const double distance_m : pose.distances_m) take(distance_m);
+  return mark;
+}
+
+std::vector<std::uint64_t> smallest(const std::set<std::uint64_t>& marks) {
+  std::vector<std::uint64_t> least(marks.begin(), marks.end());
+  if (least.size() > kPoseMarks) least.resize(kPoseMarks);
+  return least;
+}
+
 }  // namespace
 
 FittedPosterior fitted_posterior(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& robot,
@@ -166,6 +190,12 @@ Widening widening_at(const CalibratedModel& model, const Stop& stop) {
   return widening(model.robot, {model.measured, model.measured_gaps}, stop);
 }
 
+bool is_outside_measured(const CalibratedModel& model, const Stop& stop, const Widening& there_by) {
+  if (there_by.factor > kWorthFlagging) return true;
+  if (there_by.held_radius_m() == 0.0 || !model.posterior || !model.interval) return false;
+  return there_by.is_worth_flagging(real_radius95_m(*model.interval, *model.posterior, model.robot, stop));
+}
+
 std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& calibration) {
   std::vector<Interval> ranges;
   for (const std::size_t pose : fitted_poses(data, calibration)) {
@@ -198,6 +228,27 @@ std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Ca
     }
   }
   return gaps;
+}
+
+std::vector<std::uint64_t> pose_marks(const DataSet& data) {
+  std::set<std::uint64_t> marks;  // repeats that agree in every digit count once
+  for (const MeasuredPose& pose : data.poses)
+    if (pose.set != PoseSet::accept) marks.insert(mark_of(pose));
+  return smallest(marks);
+}
+
+std::vector<std::uint64_t> marks_of_both(const std::vector<std::uint64_t>& one,
+                                         const std::vector<std::uint64_t>& other) {
+  std::set<std::uint64_t> marks(one.begin(), one.end());
+  marks.insert(other.begin(), other.end());
+  return smallest(marks);
+}
+
+std::vector<std::size_t> marked_poses(const CalibratedModel& model, const DataSet& data) {
+  std::vector<std::size_t> marked;
+  for (std::size_t i = 0; i < data.poses.size() && !model.pose_marks.empty(); ++i)
+    if (std::ranges::binary_search(model.pose_marks, mark_of(data.poses[i]))) marked.push_back(i);
+  return marked;
 }
 
 std::map<int, std::vector<int>> pose_counts(const DataSet& data, const Calibration& calibration) {

@@ -71,6 +71,8 @@ struct CalibratedModel {
   /// Of revolute joints, from 0: how many of the fitted poses stand in each kTurnStep_rad of a turn, from 0 on. Nothing
   /// in models of old versions and of fleets.
   std::map<int, std::vector<int>> pose_counts{};
+  /// pose_marks() of the poses that it learnt from or was chosen by; none in models of old versions.
+  std::vector<std::uint64_t> pose_marks{};
   CertificateFields certificate{};  ///< what the job states for certificates
   std::vector<Station> stations{};  ///< where the data were measured from; empty: one place
   /// Of the mean of several robots of one type, whose posterior says how far one of them may be from it; such a model
@@ -90,6 +92,8 @@ std::size_t turn_step(double angle_rad);
 
 /// By how much radii are larger at a stop than where the model was measured.
 Widening widening_at(const CalibratedModel& model, const Stop& stop);
+/// Whether they are clearly larger there, by where the stop is: `there_by` is widening_at() it.
+bool is_outside_measured(const CalibratedModel& model, const Stop& stop, const Widening& there_by);
 
 /// The covariance of the model's numbers over the poses it was fitted to: of base, links, tools and effects, and of
 /// what smooth terms could still change in corrections that are declared. Along what the poses do not show it is as
@@ -116,6 +120,16 @@ std::vector<Interval> measured_ranges(const DataSet& data, const Calibration& ca
 /// Inside these the stretches (rad or m) of joints, from 0, in which none of the poses stands, of 20 deg (100 mm) or
 /// more, where as many different values drawn at random would leave one so wide in fewer than one of a hundred cases.
 std::map<int, std::vector<Interval>> measured_gaps(const DataSet& data, const Calibration& calibration);
+
+/// Of the calibration and validation poses the kPoseMarks smallest hashes of joints and of what was measured there,
+/// ascending: a fair sample of them, by which they are known again in whatever file they stand.
+std::vector<std::uint64_t> pose_marks(const DataSet& data);
+inline constexpr std::size_t kPoseMarks = 32;
+/// The smallest of two such samples together.
+std::vector<std::uint64_t> marks_of_both(const std::vector<std::uint64_t>& one,
+                                         const std::vector<std::uint64_t>& other);
+/// The poses of the data that are among the model's marked ones, whatever set they are of; ascending.
+std::vector<std::size_t> marked_poses(const CalibratedModel& model, const DataSet& data);
 
 /// How often revolute joints stand where in their turn, over the same poses.
 std::map<int, std::vector<int>> pose_counts(const DataSet& data, const Calibration& calibration);

@@ -90,6 +90,13 @@ enum class Circumstance { none, approach, temperature, time, masses };
 /// What makes a decoy impossible: a ratio that no gear has, or a circumstance dealt out anew over the poses.
 enum class DecoyKind { none, wrong_ratio, shuffled_approach, shuffled_temperature };
 
+/// What an effect may still add to its joint's motion beyond where another joint, or its own, was measured and it is
+/// held: by how much it changes with that joint at most, and how far it goes at most (rad or m).
+struct HeldMotion {
+  int of_joint = 0;  ///< whose range it is, from 0
+  double steepest = 0.0, span = 0.0;
+};
+
 struct DecoyEffect;     ///< an effect that cannot be true, tried among those that may be
 struct SymbolicWriter;  ///< see effects/symbolic_state.hpp
 
@@ -143,6 +150,8 @@ class EffectLaw {
   virtual std::optional<DecoyEffect> decoy(const Effect& effect, const Evidence& evidence) const;
   /// Whether it is nothing beyond the measured range, on average: a ripple. Others go on from what they are at its end.
   virtual bool fades(const Effect& /*effect*/) const { return false; }
+  /// Of a motion of its joint by one joint's value alone; nothing of others.
+  virtual std::optional<HeldMotion> held_motion(const Effect& /*effect*/) const { return std::nullopt; }
   /// The joints whose value it depends on and beyond whose measured range it is not known.
   virtual std::vector<int> ranged_joints(const Effect& /*effect*/, const Robot& /*robot*/) const { return {}; }
   /// Appends the unit motions as expressions of the joints (effects/symbolic_state.hpp); nothing where the effect

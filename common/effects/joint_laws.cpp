@@ -1,8 +1,10 @@
 // What is wrong with a joint by its own drive or by another's: its zero, its gain, and coupling.
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -77,6 +79,9 @@ class GainLaw final : public EffectLaw {
            "nothing. Corrected targets compensate it.";
   }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& /*robot*/) const override { return {effect.joint}; }
+  std::optional<HeldMotion> held_motion(const Effect& effect) const override {
+    return HeldMotion{effect.joint, std::abs(effect.value(0)), std::numeric_limits<double>::infinity()};
+  }
   bool is_smooth(const Effect& /*effect*/) const override { return true; }
   void append_symbolic_motions(SymbolicWriter& writer) const override { writer.append_joint(0, writer.own_joint()); }
 };
@@ -134,6 +139,12 @@ class CouplingLaw final : public EffectLaw {
   std::vector<std::string> settings() const override { return {"from"}; }
   std::vector<std::string> forms() const override { return {"linear", "harmonic"}; }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& /*robot*/) const override { return {from(effect)}; }
+  std::optional<HeldMotion> held_motion(const Effect& effect) const override {
+    if (!harmonic(effect))
+      return HeldMotion{from(effect), std::abs(effect.value(0)), std::numeric_limits<double>::infinity()};
+    const double amplitude = std::hypot(effect.value(0), effect.value(1));
+    return HeldMotion{from(effect), amplitude, 2.0 * amplitude};
+  }
   int proportional_to(const Effect& effect) const override { return harmonic(effect) ? -1 : from(effect); }
   void append_symbolic_motions(SymbolicWriter& writer) const override {
     const Expression other = writer.joint(from(writer.effect));

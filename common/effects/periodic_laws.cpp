@@ -45,6 +45,11 @@ class JointWaveLaw : public EffectLaw {
   }
   std::vector<std::string> settings() const override { return {setting_}; }
   std::vector<int> ranged_joints(const Effect& effect, const Robot& /*robot*/) const override { return {effect.joint}; }
+  std::optional<HeldMotion> held_motion(const Effect& effect) const override {
+    const double amplitude = std::hypot(effect.value(0), effect.value(1));
+    const double fading = fades(effect) ? 1.5 / kFade : 0.0;  // at its steepest
+    return HeldMotion{effect.joint, amplitude * (periods(effect) + fading), 2.0 * amplitude};
+  }
   void append_symbolic_motions(SymbolicWriter& writer) const override {
     writer.append_wave(periods(writer.effect) * writer.own_joint());
   }

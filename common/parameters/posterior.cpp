@@ -181,14 +181,16 @@ double radius95_m(const PredictionInterval& interval, const Posterior& posterior
   model_alone.station_noise_m.clear();
   const double model_m2 = posterior_square_m2(posterior, robot, data, pose) + noise_square_m2(model_alone, pose);
   const double noise_m2 = noise_square_m2(there, pose) - noise_square_m2(model_alone, pose);
-  return interval.quantile * std::sqrt(there_by.factor * there_by.factor * model_m2 + noise_m2) + there_by.unstated_m;
+  const double radius_m = interval.quantile * std::sqrt(there_by.factor * there_by.factor * model_m2 + noise_m2);
+  return std::hypot(radius_m, there_by.held_radius_m()) + there_by.unstated_m;
 }
 
 double real_radius95_m(const PredictionInterval& interval, const Posterior& posterior, const CorrectedRobot& robot,
                        const Stop& stop, const Widening& there_by) {
   const double real_m2 =
       pose_covariance(posterior, robot, stop).topLeftCorner<3, 3>().trace() + 3.0 * std::pow(interval.model_error_m, 2);
-  return there_by.factor * real_quantile() * std::sqrt(real_m2) + there_by.unstated_m;
+  return std::hypot(there_by.factor * real_quantile() * std::sqrt(real_m2), there_by.held_radius_m()) +
+         there_by.unstated_m;
 }
 
 double real_quantile() {

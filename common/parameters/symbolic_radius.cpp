@@ -126,6 +126,23 @@ class RadiusFormulas {
     return factor;
   }
 
+  /// The square of what corrections and effects that are held outside of what was measured may be off by, m^2.
+  Expression held_square_m2(const MeasuredJoints& measured) const {
+    Expression square = algebra_.constant(0.0);
+    for (std::size_t joint = 0; joint < measured.ranges.size(); ++joint) {
+      const Interval& range = measured.ranges[joint];
+      const auto which = static_cast<int>(joint);
+      const Expression outside = positive(from_centre(which, range) - 0.5 * (range.upper - range.lower));
+      for (const HeldPart& held : held_parts(robot_, which)) {
+        Expression off_by = held.steepest * outside;
+        if (std::isfinite(held.span)) off_by = smaller(off_by, algebra_.constant(held.span));
+        const SymbolicVector moves = undisplaced_.drive(robot_.chain, held.joint).moves(undisplaced_.point);
+        for (const Expression& along : as_point(moves)) square = square + (off_by * along) * (off_by * along);
+      }
+    }
+    return square;
+  }
+
   Expression widened_by_warming(double reference_celsius) const {
     if (!robot_.temperatures_celsius) return algebra_.constant(0.0);
     return outside(algebra_.symbol(kWarming) + reference_celsius, *robot_.temperatures_celsius, kLeastTemperatureRange);
@@ -195,6 +212,7 @@ RadiusListing symbolic_radius(Algebra& algebra, const PredictionInterval& interv
                        .quantile = real_quantile(),
                        .widened = formulas.widened(measured),
                        .widened_by_warming = formulas.widened_by_warming(reference_celsius),
+                       .held_square_m2 = formulas.held_square_m2(measured),
                        .point = formulas.point()};
   formulas.add_spread(radius);
   const std::vector<Expression> point(radius.point.begin(), radius.point.end());

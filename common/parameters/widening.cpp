@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "data/text.hpp"
+#include "effects/effect.hpp"
 #include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/units.hpp"
+#include "parameters/posterior.hpp"
 
 namespace demecal::inline parameters {
 namespace {
@@ -37,6 +40,24 @@ double as_it_is(double value) {
 std::string range_words(const Interval& range, const BorderUnit& unit) {
   return with_decimals(unit.to_border(range.lower), unit.decimals) + " .. " +
          with_decimals(unit.to_border(range.upper), unit.decimals) + " " + unit.name;
+}
+
+HeldPart held_correction(const JointCorrection& correction, int joint) {
+  constexpr int kParts = 128;
+  const Interval& range = correction.range_rad();
+  const double part = (range.upper - range.lower) / kParts;
+  HeldPart held{joint};
+  if (part <= 0.0) return held;
+  double before = correction(range.lower), least = before, most = before;
+  for (int i = 1; i <= kParts; ++i) {
+    const double value = correction(std::min(range.lower + i * part, range.upper));
+    held.steepest = std::max(held.steepest, std::abs(value - before) / part);
+    least = std::min(least, value);
+    most = std::max(most, value);
+    before = value;
+  }
+  held.span = most - least;
+  return held;
 }
 
 class StopWidening {
@@ -84,19 +105,48 @@ class StopWidening {
     };
     const Interval& range = measured_.ranges[joint];
     const double least = std::max(range.upper - range.lower, kLeastJointRange);
+    const double outside = std::max(0.0, from_centre(range) - 0.5 * (range.upper - range.lower));
+    const double off_by = outside > 0.0 ? add_held(static_cast<int>(joint), outside) : 0.0;
     const std::string subject = "joint " + std::to_string(joint + 1);
     const auto at = [&] {
       return " at " + with_decimals(unit.to_border(stop_.joints[static_cast<Eigen::Index>(joint)]), unit.decimals) +
              " " + unit.name;
     };
-    add(subject, kGrowthPerRange * std::max(0.0, from_centre(range) - 0.5 * (range.upper - range.lower)) / least,
-        [&] { return at() + ", measured " + range_words(range, unit); });
+    add(subject, kGrowthPerRange * outside / least, [&] {
+      const std::string measured = at() + ", measured " + range_words(range, unit);
+      if (off_by == 0.0) return measured;
+      return measured + ", where its motion may be off by " + with_decimals(1e3 * off_by, 2) +
+             (turns ? " mrad" : " mm");
+    });
     const auto gaps = measured_.gaps.find(static_cast<int>(joint));
     if (gaps == measured_.gaps.end()) return;
     for (const Interval& gap : gaps->second)
       add(subject, kGrowthPerRange * std::max(0.0, 0.5 * (gap.upper - gap.lower) - from_centre(gap)) / least,
           [&] { return at() + ", measured nowhere in " + range_words(gap, unit); });
   }
+
+  /// What is held where the joint stands so far outside; by how much its own motion may be off: two standard
+  /// deviations.
+  double add_held(int of_joint, double outside) {
+    const std::vector<HeldPart> parts = held_parts(robot_, of_joint);
+    if (parts.empty()) return 0.0;
+    const Eigen::Vector3d tool_m = robot_.tool(own_target()).translation();
+    const Jacobian drives = differential_kinematics(robot_.chain, robot_.actual_joints(stop_), tool_m).drives;
+    const Eigen::Matrix3d& base = robot_.sensor_from_base.linear();
+    double own_square = 0.0;
+    for (const HeldPart& part : parts) {
+      const double off_by = part.off_by(outside);
+      if (part.joint == of_joint) own_square += off_by * off_by;
+      Eigen::Matrix<double, 6, 1> motion;
+      motion << base * drives.col(part.joint).head<3>(), base * drives.col(part.joint).tail<3>();
+      motion *= off_by / kCoverageFactor;
+      widening_.held_covariance += motion * motion.transpose();
+    }
+    return std::sqrt(own_square);
+  }
+
+  /// A model of several targets on the tool need not hold the robot's own.
+  std::string own_target() const { return robot_.tools.contains("") ? "" : robot_.tools.begin()->first; }
 
   void add_outside(const std::string& subject, double value, const Interval& range, double least,
                    const BorderUnit& unit) {
@@ -108,8 +158,7 @@ class StopWidening {
 
   template <typename State>
   void add_unstated(const std::string& subject, const Interval& range, const BorderUnit& unit, const State& state) {
-    // A model of several targets on the tool need not hold the robot's own.
-    const std::string target = robot_.tools.contains("") ? "" : robot_.tools.begin()->first;
+    const std::string target = own_target();
     const Eigen::Vector3d taken_m = robot_.predict(stop_, target).translation();
     double most_m = 0.0;
     for (const double end : {range.lower, range.upper}) {
@@ -137,6 +186,27 @@ std::vector<std::string> Widening::sentences() const {
   std::vector<std::string> all;
   for (const WideningReason& reason : reasons) all.push_back(reason.sentence);
   return all;
+}
+
+double Widening::held_radius_m() const {
+  return kCoverageFactor * std::sqrt(held_covariance.topLeftCorner<3, 3>().trace());
+}
+
+bool Widening::is_worth_flagging(double own_m) const {
+  return std::hypot(factor * own_m, held_radius_m()) > kWorthFlagging * own_m;
+}
+
+std::vector<HeldPart> held_parts(const CorrectedRobot& robot, int of_joint) {
+  std::vector<HeldPart> parts;
+  const JointCorrection& correction = robot.corrections[static_cast<std::size_t>(of_joint)];
+  if (!correction.is_neutral()) parts.push_back(held_correction(correction, of_joint));
+  for (const Effect& effect : robot.effects) {
+    if (!effect.ranges.contains(of_joint)) continue;
+    const std::optional<HeldMotion> held = law_of(effect).held_motion(effect);
+    if (held && held->of_joint == of_joint) parts.push_back({effect.joint, held->steepest, held->span});
+  }
+  std::erase_if(parts, [](const HeldPart& part) { return part.steepest == 0.0; });
+  return parts;
 }
 
 Widening widening(const CorrectedRobot& robot, const MeasuredJoints& measured, const Stop& stop) {

@@ -47,7 +47,10 @@ Eigen::Isometry3d goal_of(const Target& target, const CommandModel& model, Corre
   if (!model.posterior) return corrected.nominal_tool;
   Eigen::Isometry3d goal = model.robot.predict(corrected.stop, "");
   const PoseError correction = pose_error(goal, corrected.nominal_tool);
-  const PoseCovariance covariance = pose_covariance(*model.posterior, model.robot, corrected.stop);
+  const Widening there_by = widening_at(model, corrected.stop);
+  const PoseCovariance covariance =
+      std::pow(there_by.factor, 2) * pose_covariance(*model.posterior, model.robot, corrected.stop) +
+      there_by.held_covariance;
   const DeterminedPart position =
       determined_part(correction.head<3>(), covariance.topLeftCorner<3, 3>(), kPositionWorthSaying);
   const DeterminedPart turn =

@@ -97,7 +97,7 @@ std::vector<PoseErrorEntry> pose_errors(const DataSet& data, const CalibratedMod
     if (model.posterior && model.interval)
       entry.interval95_mm =
           if_finite(millimetres(radius95_m(*model.interval, *model.posterior, robot, data, pose, there_by)));
-    if (there_by.factor > kWorthFlagging) entry.flags.emplace_back("outside_measured");
+    if (is_outside_measured(model, Stop(pose), there_by)) entry.flags.emplace_back("outside_measured");
   });
   return poses;
 }
@@ -238,7 +238,8 @@ MeanSquares mean_squares(const CalibratedModel& model, const DataSet& data, std:
     const Widening there_by = widening_at(model, Stop(pose));
     const double widened_squared = std::pow(there_by.factor, 2);
     mean.numbers_m2 += widened_squared * posterior_square_m2(*model.posterior, model.robot, data, pose);
-    mean.left_m2 += widened_squared * 3.0 * std::pow(model.interval->model_error_m, 2);
+    mean.left_m2 += widened_squared * 3.0 * std::pow(model.interval->model_error_m, 2) +
+                    std::pow(there_by.held_radius_m() / real_quantile(), 2);
     mean.unstated_m2 += std::pow(there_by.unstated_m, 2);
     count += 1.0;
   }

@@ -36,12 +36,13 @@ std::vector<std::string> widened_sentences(const CalibratedModel& model, const D
   std::size_t rows_outside = 0, rows_unstated = 0;
   for (const std::size_t row : rows) {
     const Widening there_by = widening_at(model, Stop(data.poses[row]));
-    rows_outside += there_by.factor > kWorthFlagging ? 1 : 0;
+    const bool flagged = is_outside_measured(model, Stop(data.poses[row]), there_by);
+    rows_outside += flagged ? 1 : 0;
     bool states_all = true;
     for (const WideningReason& reason : there_by.reasons) {
       const bool is_outside = reason.growth > 0.0;
       states_all &= is_outside;
-      if (is_outside && there_by.factor <= kWorthFlagging) continue;
+      if (is_outside && !flagged) continue;
       Widened& one = (is_outside ? outside : unstated)[reason.subject];
       ++one.rows;
       if (one.rows == 1 || reason.growth > one.worst.growth || reason.unstated_m > one.worst.unstated_m)

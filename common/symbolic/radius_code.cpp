@@ -15,8 +15,9 @@ constexpr const char* kRadiusRemarks[] = {
     "The radius, m, that holds the real tool point 95 % of the time about where a corrected command sends it (k = 2),",
     "as demecal's library and apply have it: by the covariance of the model's numbers and by its own error, without",
     "measurement noise and without what is not known of where the base stands, and widened by judgement where joints,",
-    "payload or temperature are outside of what was measured. It is of the robot's own tool. Not in it: what a command",
-    "leaves uncorrected (see corrected), sides of approach and payloads that are not known, and how the arm ages."};
+    "payload or temperature are outside of what was measured, and there by what the joints' corrections may be off by.",
+    "It is of the robot's own tool. Not in it: what a command leaves uncorrected (see corrected), sides of approach",
+    "and payloads that are not known, and how the arm ages."};
 
 class RadiusWriter {
  public:
@@ -96,17 +97,17 @@ std::string RadiusWriter::c() const {
       << "static const double radius_factor[] = {\n"
       << numbers("  ") << "};\n\n"
       << "/* How the tool point moves with each number, where it is, and by what the radius is widened: by joints and\n"
-      << "payload, and by warmth. */\nstatic void radius_terms(" << arguments
-      << ", double spread[RADIUS_NUMBERS][3], double point[3], double widened[2]) {\n  (void)at;\n"
+      << "payload, by warmth, and by the square of what corrections may be off by. */\nstatic void radius_terms("
+      << arguments << ", double spread[RADIUS_NUMBERS][3], double point[3], double widened[3]) {\n  (void)at;\n"
       << symbols("  const double ", "at->", ";\n");
   const Steps all = steps();
   for (const auto& [name, value] : all.assignments) out << "  const double " << name << " = " << value << ";\n";
   for (std::size_t i = 0; i < 3 * n; ++i)
     out << "  spread[" << i / 3 << "][" << i % 3 << "] = " << all.results[i] << ";\n";
   for (std::size_t i = 0; i < 3; ++i) out << "  point[" << i << "] = " << all.results[3 * n + i] << ";\n";
-  for (std::size_t i = 0; i < 2; ++i) out << "  widened[" << i << "] = " << all.results[3 * n + 3 + i] << ";\n";
+  for (std::size_t i = 0; i < 3; ++i) out << "  widened[" << i << "] = " << all.results[3 * n + 3 + i] << ";\n";
   out << "}\n\nstatic double radius_of(" << arguments << ", int temperature_stated) {\n"
-      << "  double spread[RADIUS_NUMBERS][3], sums[RADIUS_COLUMNS][3] = {{0.0}}, point[3], widened[2];\n"
+      << "  double spread[RADIUS_NUMBERS][3], sums[RADIUS_COLUMNS][3] = {{0.0}}, point[3], widened[3];\n"
       << "  double square = " << printer_.number(radius_.square_m2) << ", unstated = 0.0;\n"
       << "  int k = 0;\n  radius_terms(at, q, spread, point, widened);\n"
       << "  for (int i = 0; i < RADIUS_NUMBERS; ++i)\n    for (int c = 0; c < radius_lengths[i]; ++c, ++k)\n"
@@ -116,12 +117,12 @@ std::string RadiusWriter::c() const {
   if (radius_.warming)
     out << "  if (!temperature_stated) {\n    static const double ends[2] = {" << warming(0) << ", " << warming(1)
         << "};\n    for (int end = 0; end < 2; ++end) {\n      struct circumstances warm = *at;\n"
-        << "      double moved[3], ignored[2], away = 0.0;\n      warm.warming_kelvin = ends[end];\n"
+        << "      double moved[3], ignored[3], away = 0.0;\n      warm.warming_kelvin = ends[end];\n"
         << "      radius_terms(&warm, q, spread, moved, ignored);\n"
         << "      for (int x = 0; x < 3; ++x) away += (moved[x] - point[x])*(moved[x] - point[x]);\n"
         << "      if (sqrt(away) > unstated) unstated = sqrt(away);\n    }\n  }\n";
-  out << "  return (widened[0] + (temperature_stated ? widened[1] : 0.0))*" << printer_.number(radius_.quantile)
-      << "*sqrt(square) + unstated;\n}\n\n"
+  out << "  const double times = (widened[0] + (temperature_stated ? widened[1] : 0.0))*"
+      << printer_.number(radius_.quantile) << ";\n  return sqrt(times*times*square + widened[2]) + unstated;\n}\n\n"
       << "/* Under the circumstances that are stated. */\ndouble radius95_at(" << arguments
       << ") {\n  return radius_of(at, q, 1);\n}\n\n"
       << "/* With nothing carried, where nobody knows how warm the arm is: of all temperatures that were measured. */\n"
@@ -148,12 +149,12 @@ std::string RadiusWriter::python() const {
   out << "    return (\n        (\n";
   for (std::size_t i = 0; i < n; ++i) out << "            " << triple(3 * i) << ",\n";
   out << "        ),\n        " << triple(3 * n) << ",\n        " << all.results[3 * n + 3] << ",\n        "
-      << all.results[3 * n + 4] << ",\n    )\n\n\n"
+      << all.results[3 * n + 4] << ",\n        " << all.results[3 * n + 5] << ",\n    )\n\n\n"
       << "def radius95(q, payload_kg=0.0, warming_kelvin=None, approach=None):\n"
       << "    # warming_kelvin None: nobody knows how warm the arm is, and the radius is of all that was measured.\n"
       << "    approach = approach or [0.0]*" << joints << '\n'
       << "    stated = 0.0 if warming_kelvin is None else warming_kelvin\n"
-      << "    spread, point, widened, by_warming = _radius_terms(q, payload_kg, stated, approach)\n"
+      << "    spread, point, widened, by_warming, held_square = _radius_terms(q, payload_kg, stated, approach)\n"
       << "    sums = [[0.0]*3 for _ in range(" << columns_ << ")]\n"
       << "    for moves, row in zip(spread, _RADIUS_FACTOR):\n        for column, factor in enumerate(row):\n"
       << "            for x in range(3):\n                sums[column][x] += moves[x]*factor\n"
@@ -163,8 +164,8 @@ std::string RadiusWriter::python() const {
     out << "    if warming_kelvin is None:\n        for end in (" << warming(0) << ", " << warming(1)
         << "):\n            moved = _radius_terms(q, payload_kg, end, approach)[1]\n"
         << "            unstated = max(unstated, math.sqrt(sum((a - b)**2 for a, b in zip(moved, point))))\n";
-  out << "    if warming_kelvin is not None:\n        widened += by_warming\n    return widened*"
-      << printer_.number(radius_.quantile) << "*math.sqrt(square) + unstated\n";
+  out << "    if warming_kelvin is not None:\n        widened += by_warming\n    times = widened*"
+      << printer_.number(radius_.quantile) << "\n    return math.sqrt(times*times*square + held_square) + unstated\n";
   return out.str();
 }
 
@@ -186,8 +187,8 @@ std::string RadiusWriter::matlab() const {
     out << "  else\n    for warm = [" << warming(0) << ", " << warming(1)
         << "]\n      [~, moved] = radius_terms(q, payload_kg, warm, approach);\n"
         << "      unstated = max(unstated, norm(moved - point));\n    end\n";
-  out << "  end\n  r = widened(1)*" << printer_.number(radius_.quantile) << "*sqrt("
-      << printer_.number(radius_.square_m2) << " + sum(sum(sums.^2))) + unstated;\nend\n\n"
+  out << "  end\n  times = widened(1)*" << printer_.number(radius_.quantile) << ";\n  r = sqrt(times^2*("
+      << printer_.number(radius_.square_m2) << " + sum(sum(sums.^2))) + widened(3)) + unstated;\nend\n\n"
       << "function [spread, point, widened] = radius_terms(q, payload_kg, warming_kelvin, approach)\n"
       << symbols("  ", "", ";\n");
   const Steps all = steps();
@@ -196,7 +197,8 @@ std::string RadiusWriter::matlab() const {
   for (std::size_t i = 0; i < 3 * n; ++i)
     out << "  spread(" << i / 3 + 1 << ", " << i % 3 + 1 << ") = " << all.results[i] << ";\n";
   out << "  point = [" << all.results[3 * n] << ", " << all.results[3 * n + 1] << ", " << all.results[3 * n + 2]
-      << "];\n  widened = [" << all.results[3 * n + 3] << ", " << all.results[3 * n + 4] << "];\nend\n";
+      << "];\n  widened = [" << all.results[3 * n + 3] << ", " << all.results[3 * n + 4] << ", "
+      << all.results[3 * n + 5] << "];\nend\n";
   return out.str();
 }
 
@@ -208,6 +210,7 @@ std::vector<Expression> RadiusListing::expressions() const {
   all.insert(all.end(), point.begin(), point.end());
   all.push_back(widened);
   all.push_back(widened_by_warming);
+  all.push_back(held_square_m2);
   return all;
 }
 

@@ -11,8 +11,8 @@
 
 namespace demecal::inline symbolic {
 
-/// radius = quantile * widened * root(|sum of spread[i] * factor[i]|^2 + square_m2), and what the tool moves by where
-/// the temperature is not stated. Expressions are of the symbols of Listing.
+/// radius = root((quantile * widened)^2 * (|sum of spread[i] * factor[i]|^2 + square_m2) + held_square_m2), and what
+/// the tool moves by where the temperature is not stated. Expressions are of the symbols of Listing.
 struct RadiusListing {
   std::vector<std::array<Expression, 3>> spread;  ///< how the tool point moves with each number of the model, m
   std::vector<std::vector<double>> factor;        ///< of each number; trailing zeros left out
@@ -20,6 +20,7 @@ struct RadiusListing {
   double quantile = 0.0;
   Expression widened;               ///< by joints and payload outside of what was measured
   Expression widened_by_warming;    ///< added to it where the temperature is stated
+  Expression held_square_m2;        ///< of what corrections that are held outside may be off by
   std::array<Expression, 3> point;  ///< the tool's, m
   /// The ends of the measured temperatures above the listing's reference; nothing where they are not known, or the tool
   /// point does not depend on warmth.

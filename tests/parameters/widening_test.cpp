@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "expression/text.hpp"
+#include "kinematics/forward.hpp"
 #include "kinematics/random_arm.hpp"
 #include "random/random_stream.hpp"
 
@@ -72,6 +74,36 @@ TEST(Widening, GrowsWithTheWayOutsideInSharesOfTheRangeAndSaysWhere) {
   arm.gaps = {{1, {{0.0, 0.8}}}};
   EXPECT_NEAR(arm.at(arm.inside).factor, 1.0 + 2.0 * 0.3 / 2.0, 1e-12);
   EXPECT_THAT(arm.at(arm.inside).sentences(), ElementsAre("joint 2 at 17.2 deg, measured nowhere in 0 .. 45.8 deg"));
+}
+
+TEST(Widening, HoldsWhatACorrectionMayBeOffByOutside) {
+  MeasuredArm arm;
+  arm.robot.corrections[1] = JointCorrection(parse("0.002 * SIN(theta)"), {true, 0.0}, {-1.0, 1.0});
+  EXPECT_EQ(arm.at(arm.inside).held_radius_m(), 0.0);
+  Stop near = arm.inside, far = arm.inside;
+  near.joints[1] = 1.2;
+  far.joints[1] = 3.0;
+  const auto radius_rad = [&](const Stop& stop) {
+    const Eigen::Vector3d tool_m = arm.robot.tool("").translation();
+    const auto drives = differential_kinematics(arm.robot.chain, arm.robot.actual_joints(stop), tool_m).drives;
+    return arm.at(stop).held_radius_m() / drives.col(1).head<3>().norm();
+  };
+  EXPECT_NEAR(radius_rad(near), 0.2 * 0.002, 1e-6) << "as steep as in the middle";
+  EXPECT_NEAR(radius_rad(far), 0.004 * std::sin(1.0), 1e-6) << "as much as there was between its ends";
+  EXPECT_THAT(arm.at(near).sentences(),
+              ElementsAre("joint 2 at 68.8 deg, measured -57.3 .. 57.3 deg, where its motion may be off by 0.4 mrad"));
+  arm.robot.corrections[1] = {};
+  EXPECT_EQ(arm.at(far).held_radius_m(), 0.0);
+  Effect gear{.kind = "gear_harmonic", .joint = 1, .settings = {{"ratio", 50.0}}};
+  gear.values = {3e-4, 4e-4};
+  gear.ranges[1] = {-1.0, 1.0};
+  arm.robot.effects.push_back(gear);
+  Stop beside = arm.inside;
+  beside.joints[1] = 1.01;
+  EXPECT_NEAR(radius_rad(beside), (50.0 + 1.5 / kFade) * 5e-4 * 0.01, 1e-8) << "its phase runs on, and it fades";
+  EXPECT_NEAR(radius_rad(far), 2.0 * 5e-4, 1e-8);
+  EXPECT_TRUE(arm.at(near).is_worth_flagging(1e-4));
+  EXPECT_FALSE(arm.at(arm.inside).is_worth_flagging(1e-4));
 }
 
 TEST(Widening, HoldsWhateverWasMeasuredOfWhatIsNotStated) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "corrected_arm.hpp"
+#include "expression/text.hpp"
 #include "programs/summary.hpp"
 #include "programs/target_correction.hpp"
 #include "random/random_stream.hpp"
@@ -81,6 +82,57 @@ TEST(Correction, CountsWhatItLeavesToWhatItIsReachedWithin) {
     EXPECT_GE(*unsure.error95_m, there_m) << "by the model itself it is so far off";
     EXPECT_GE(*unsure.error95_m, *error95_m(sure_to(model, 1.0), stop) + unsure.left_m);
   }
+}
+
+/// A joint's error as demos and theses have it, known within this range.
+JointCorrection known_wave(double amplitude, double phase, const Interval& range) {
+  const std::string formula = std::to_string(amplitude) + " * SIN(2 * theta + (" + std::to_string(phase) + "))";
+  return {parse(formula), {true, 0.5 * (range.lower + range.upper)}, range};
+}
+
+TEST(Correction, OutsideOfWhatWasMeasuredIsMadeAsFarAsJointsCorrectionsAreKnown) {
+  RandomStream stream{7514};
+  int outside = 0, held = 0, worse = 0, helped = 0;
+  for (int trial = 0; trial < 40; ++trial) {
+    const Robot nominal = elbow_arm(stream);
+    CorrectedRobot robot = random_robot(stream, nominal.chain, 0.0, 0.0);
+    CorrectedRobot truth = robot;
+    std::vector<Interval> ranges;
+    for (int joint = 0; joint < 6; ++joint) {
+      const double middle = stream.real(-0.5, 0.5), half = stream.real(0.4, 1.0);
+      const double amplitude = stream.real(1e-3, 4e-3), phase = stream.real(-3.0, 3.0);
+      ranges.push_back({middle - half, middle + half});
+      const auto at = static_cast<std::size_t>(joint);
+      robot.corrections[at] = known_wave(amplitude, phase, ranges.back());
+      truth.corrections[at] = known_wave(amplitude, phase, {middle - 3.14, middle + 3.14});
+    }
+    CommandModel model = sure_to(unbounded_model(nominal, robot), 1e-6);
+    truth.sensor_from_base = model.robot.sensor_from_base;
+    model.measured = ranges;
+    for (int i = 0; i < 20; ++i) {
+      const Stop stop(regular_joints(stream, nominal.chain));
+      Target target;
+      target.joints.resize(6);
+      const CorrectedTarget corrected = correct_target(target, model, stop);
+      const auto error_m = [&](const JointVector& command) {
+        return (truth.predict(stop.with_joints(command), "").translation() - corrected.nominal_tool.translation())
+            .norm();
+      };
+      const double before_m = error_m(stop.joints), after_m = error_m(corrected.command);
+      if (widening_at(model, stop).factor == 1.0) {
+        EXPECT_LT(after_m, 1e-5);
+        continue;
+      }
+      ++outside;
+      held += after_m <= *corrected.error95_m ? 1 : 0;
+      worse += after_m > before_m + 1e-5 ? 1 : 0;
+      helped += after_m < 0.5 * before_m ? 1 : 0;
+    }
+  }
+  EXPECT_GT(outside, 400);
+  EXPECT_GE(held, 0.95 * outside);
+  EXPECT_LE(worse, 0.05 * outside);
+  EXPECT_GE(helped, 0.1 * outside);
 }
 
 TEST(Correction, SaysWhereRadiiComeFromFittedPoses) {
