@@ -245,7 +245,9 @@ void judge_positions(const CalibratedModel& model, const DataSet& data, const Ce
   certificate.judgement =
       judge(errors.single_m, errors.mean_m, run.tolerance_m, instrument_m, mean_noise_m(model, data, poses));
   const PoseSet set = data.poses[rows.front()].set;
-  if (set != PoseSet::calibration && find_shared_poses(data, set)) {
+  if (const std::string known = known_poses_sentence(model, data, rows); !known.empty()) {
+    withhold(certificate.judgement, known + ", and their errors say nothing of other places");
+  } else if (set != PoseSet::calibration && find_shared_poses(data, set)) {
     withhold(certificate.judgement, "the " + certificate.judged_set +
                                         " poses stand at the joints of calibration poses, and their errors say nothing "
                                         "of other places");

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -101,6 +102,10 @@ CorrectedRobot refitted(const DataSet& data, const DeclaredModel& base_and_tool,
 
 /// Whether the data are those that the model was calibrated with, or one of the stations of these.
 bool is_calibrated_with(const CalibratedModel& model, const DataSet& data);
+
+/// "the model was made from some of these very poses (P1, P7, ...)": of these rows of other data; empty where it is not
+/// known of any.
+std::string known_poses_sentence(const CalibratedModel& model, const DataSet& data, std::span<const std::size_t> rows);
 
 /// What a certificate of `data` states: `of_data`, and what the model's job stated beside. Of other data than the
 /// model's own nothing that belongs to the day of a measurement is taken from there; what is taken is noted.

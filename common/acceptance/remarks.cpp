@@ -66,8 +66,16 @@ class Remarks {
     if (!run_.sets_stated)
       add(run_.refit_base ? "The data state no sets: which poses are judged was drawn."
                           : "The data state no sets and are not those of the model: all poses are judged.");
-    add("The data are another file than the model was calibrated with: whether any of these poses had a part in the "
-        "model is not known here.");
+    if (model_.pose_marks.empty())
+      add("The data are another file than the model was calibrated with: whether any of these poses had a part in the "
+          "model is not known here.");
+    else if (marked_poses(model_, data_).empty())
+      add(
+          fmt::format("The data are another file than the model was calibrated with, and hold none of the {} poses by "
+                      "which the model knows its own again.",
+                      model_.pose_marks.size()));
+    else
+      add("The data are another file than the model was calibrated with, and hold poses that had a part in it.");
   }
 
   static std::string part_in_model(const std::string& set) {

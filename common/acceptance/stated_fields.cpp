@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +16,22 @@ namespace demecal::inline acceptance {
 bool is_calibrated_with(const CalibratedModel& model, const DataSet& data) {
   const auto is_it = [&data](const Station& station) { return station.sha256 == data.sha256; };
   return data.sha256 == model.data_sha256 || std::ranges::any_of(model.stations, is_it);
+}
+
+std::string known_poses_sentence(const CalibratedModel& model, const DataSet& data, std::span<const std::size_t> rows) {
+  constexpr std::size_t kMostNamed = 3;
+  if (is_calibrated_with(model, data)) return {};
+  std::vector<std::string> names;
+  for (const std::size_t row : marked_poses(model, data)) {
+    const MeasuredPose& pose = data.poses[row];
+    if (std::ranges::find(rows, row) != rows.end())
+      names.push_back(pose.pose_id.empty() ? fmt::format("line {}", pose.line) : pose.pose_id);
+  }
+  if (names.empty()) return {};
+  const bool all = names.size() <= kMostNamed;
+  if (!all) names.resize(kMostNamed);
+  return fmt::format("the model was made from some of these very poses ({}{})", fmt::join(names, ", "),
+                     all ? "" : ", ...");
 }
 
 CertificateFields stated_fields(const CertificateFields& of_data, const CalibratedModel& model, const DataSet& data,

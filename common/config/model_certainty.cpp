@@ -1,12 +1,15 @@
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <sstream>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -117,6 +120,21 @@ void read_pose_counts(const YamlNode& entry, CalibratedModel& model) {
     counts.push_back(static_cast<int>(count.whole_number(0, 100'000'000)));
 }
 
+/// In hexadecimal digits, and in quotes: some look like numbers.
+std::string mark_text(std::uint64_t mark) {
+  std::array<char, 16> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), mark, 16).ptr;
+  return '"' + std::string(digits.data(), end) + '"';
+}
+
+std::uint64_t read_mark(const YamlNode& node) {
+  const std::string text = node.text();
+  std::uint64_t mark = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), mark, 16);
+  if (error != std::errc() || end != text.data() + text.size()) node.fail("must be hexadecimal digits, 16 at most");
+  return mark;
+}
+
 }  // namespace
 
 std::string posterior_text(const CalibratedModel& model) {
@@ -145,6 +163,11 @@ std::string posterior_text(const CalibratedModel& model) {
     std::vector<std::string> numbers;
     for (const int count : counts) numbers.push_back(std::to_string(count));
     text << "  - {joint: " << joint + 1 << ", per_5_deg: " << yaml_list(numbers) << "}\n";
+  }
+  if (!model.pose_marks.empty()) {
+    std::vector<std::string> marks;
+    for (const std::uint64_t mark : model.pose_marks) marks.push_back(mark_text(mark));
+    text << "pose_marks: " << yaml_list(marks) << '\n';
   }
   if (!model.posterior) return text.str();
   const Posterior& posterior = *model.posterior;
@@ -186,6 +209,10 @@ void read_posterior(const YamlNode& file, CalibratedModel& model) {
   }
   if (const YamlNode* counts = file.find("pose_counts")) {
     for (const YamlNode& entry : counts->list()) read_pose_counts(entry, model);
+  }
+  if (const YamlNode* marks = file.find("pose_marks")) {
+    for (const YamlNode& mark : marks->list()) model.pose_marks.push_back(read_mark(mark));
+    std::ranges::sort(model.pose_marks);
   }
   const YamlNode* node = file.find("posterior");
   if (node == nullptr) return;

@@ -253,6 +253,7 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
                   "measured_ranges",
                   "measured_gaps",
                   "pose_counts",
+                  "pose_marks",
                   "measured_payload_kg",
                   "measured_temperature_celsius",
                   "posterior",
@@ -274,9 +275,8 @@ CalibratedModel read_model(const std::string& text, const std::string& path) {
   if (const YamlNode* one_contact = data.find("one_contact")) model.of_one_contact = one_contact->boolean();
   if (const YamlNode* findings = data.find("findings"))
     for (const YamlNode& kind : findings->list()) model.data_findings.push_back(kind.text());
-  model.nominal = read_robot(file.at("robot"));
+  model.robot.chain = (model.nominal = read_robot(file.at("robot"))).chain;
   model.declared = read_declared(file.at("declared"));
-  model.robot.chain = model.nominal.chain;
   const std::vector<YamlNode>& links = file.at("links").list(model.nominal.chain.joints.size());
   for (std::size_t i = 0; i < links.size(); ++i) read_link_numbers(links[i], model.robot.chain.joints[i]);
   model.robot.sensor_from_base = read_rigid(file.at("base"));

@@ -31,7 +31,8 @@ std::string effects_text(const std::vector<Effect>& effects, const Robot& robot)
 /// setting.
 std::vector<Effect> read_effects(const YamlNode& list, const Robot& robot);
 
-/// The keys `measured_ranges`, `measured_gaps`, `pose_counts` and `posterior`, each as far as the model has it.
+/// The keys `measured_ranges`, `measured_gaps`, `pose_counts`, `pose_marks` and `posterior`, each as far as the model
+/// has it.
 std::string posterior_text(const CalibratedModel& model);
 
 /// Reads the keys of a model file, where they are, into a model whose robot is already read. Throws InputError.

@@ -227,6 +227,7 @@ CalibratedModel make_model(const DataSet& data, const Job& job, const Calibratio
           .measured = measured_ranges(data, calibration),
           .measured_gaps = measured_gaps(data, calibration),
           .pose_counts = pose_counts(data, calibration),
+          .pose_marks = pose_marks(data),
           .certificate = job.certificate,
           .stations = as_files_have_it(stations_as_found(calibration.robot, data)),
           .data_name = data.name,

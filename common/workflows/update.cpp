@@ -135,6 +135,7 @@ CalibrateResult update_model(const DataSet& data, const Job& job, const NamedMod
                   .measured = measured_ranges(data, result.calibration),
                   .measured_gaps = measured_gaps(data, result.calibration),
                   .pose_counts = counts_beside(prior.pose_counts, pose_counts(data, result.calibration)),
+                  .pose_marks = marks_of_both(prior.pose_marks, pose_marks(data)),
                   .stations = stations_as_found(update.robot, data),
                   .data_name = data.name,
                   .data_sha256 = data.sha256,

@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -119,9 +121,13 @@ ExitCode run_check(const CheckRequest& request) {
   const DataSet& data = checked.data;
   require_positions(data, "check");
   require_same_nominal_arm(model, data);
+  std::vector<std::size_t> rows(data.poses.size());
+  std::iota(rows.begin(), rows.end(), std::size_t{0});
   if (is_calibrated_with(model, data))
     fmt::print(stderr, "{}: the model was made from these very poses: they tell nothing of the robot as it is now\n",
                request.data_file);
+  else if (const std::string known = known_poses_sentence(model, data, rows); !known.empty())
+    fmt::print(stderr, "{}: {}: they tell nothing of the robot as it is now\n", request.data_file, known);
   const Finding* other = other_robot_alone(checked.check);
   std::optional<ChangeReport> instead = other == nullptr ? std::nullopt : change_in_place_of(*other, model, checked);
   DataCheck shown = checked.check;

@@ -125,6 +125,21 @@ TEST(Certificate, SaysOnlyOfTheModelsOwnPosesThatTheyHadAPartInIt) {
   EXPECT_FALSE(remarks_on(own, "is not known here"));
 }
 
+TEST(Certificate, ProvesNothingByPosesThatHadAPartInTheModelWhateverTheirFile) {
+  SentArm arm(35);
+  add_others(arm, PoseSet::calibration, 80);
+  CalibratedModel model = model_of(arm);
+  model.pose_marks = pose_marks(arm.data());
+  for (MeasuredPose& pose : arm.data().poses) pose.set = PoseSet::accept;
+  const Certificate known = make_certificate(model, arm.data(), run_at(1e-2));
+  EXPECT_EQ(known.judgement.verdict, Conformity::undecided);
+  EXPECT_TRUE(remarks_on(known, "hold poses that had a part in it"));
+  for (MeasuredPose& pose : arm.data().poses) *pose.position_m += Eigen::Vector3d(1e-6, 0.0, 0.0);
+  const Certificate measured_anew = make_certificate(model, arm.data(), run_at(1e-2));
+  EXPECT_EQ(measured_anew.judgement.verdict, Conformity::conformity);
+  EXPECT_TRUE(remarks_on(measured_anew, "none of the 32 poses"));
+}
+
 TEST(Certificate, JudgesAllPosesOfOtherDataThatStateNoSets) {
   SentArm arm(34);
   add_others(arm, PoseSet::accept, 21);

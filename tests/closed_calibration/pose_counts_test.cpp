@@ -1,7 +1,8 @@
-// How often each joint stands where in its turn, whole turns aside.
+// How often each joint stands where in its turn, whole turns aside; and which poses a model knows again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
 #include <numeric>
 
@@ -36,6 +37,26 @@ TEST(PoseCounts, CountEveryFittedPoseOfEveryJointOnce) {
       EXPECT_EQ(steps[step], std::ranges::count_if(data.poses, within)) << joint << " " << step;
     }
   }
+}
+
+TEST(PoseMarks, KnowPosesOfTheModelAgainAndNoOthers) {
+  DataSet data = measure(true_puma({"", "", "", "", "", ""}), 90, 1e-5, 94, false);
+  for (std::size_t i = 0; i < 90; ++i)
+    data.poses[i].set = std::array{PoseSet::calibration, PoseSet::validation, PoseSet::accept}[i % 3];
+  CalibratedModel model;
+  model.pose_marks = pose_marks(data);
+  ASSERT_EQ(model.pose_marks.size(), kPoseMarks);
+  EXPECT_TRUE(std::ranges::is_sorted(model.pose_marks));
+  DataSet shuffled = data;
+  for (MeasuredPose& pose : shuffled.poses) pose.set = PoseSet::accept, pose.pose_id = "renamed";
+  std::ranges::reverse(shuffled.poses);
+  EXPECT_EQ(marked_poses(model, shuffled).size(), kPoseMarks);
+  for (const std::size_t pose : marked_poses(model, data)) EXPECT_NE(data.poses[pose].set, PoseSet::accept);
+  const DataSet others = measure(true_puma({"", "", "", "", "", ""}), 90, 1e-5, 95, false);
+  EXPECT_TRUE(marked_poses(model, others).empty());
+  DataSet all = data;
+  all.poses.insert(all.poses.end(), others.poses.begin(), others.poses.end());
+  EXPECT_EQ(marks_of_both(pose_marks(data), pose_marks(others)), pose_marks(all));
 }
 
 }  // namespace

@@ -140,7 +140,7 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   posterior.factor = Eigen::MatrixXd::Zero(5, 5);
   for (Eigen::Index row = 0; row < 5; ++row)
     for (Eigen::Index column = 0; column <= row; ++column) posterior.factor(row, column) = stream.normal() * 1e-4;
-  model.posterior = posterior;
+  model.posterior = posterior, model.pose_marks = {7, 0x123456789, 0xfedcba9876543210};
   model.interval = PredictionInterval{1.75, 3e-5, 2e-5, 1.25e-4, 30, 2, true, {{"", 2e-5}, {"B: door", 1e-3}}, true};
   for (int joint = 0; joint < 6; ++joint) model.measured.push_back({stream.real(-2, 0), stream.real(0, 2)});
   model.robot.temperatures_celsius = Interval{stream.real(15, 20), 25.0}, model.pose_counts[0].assign(kTurnSteps, 7);
@@ -160,7 +160,8 @@ TEST(ModelFile, KeepsHowSureItsNumbersAreAndTheMeasuredRanges) {
   EXPECT_DOUBLE_EQ(read.posterior->terms[0].shape(0.6), posterior.terms[0].shape(0.6));
   EXPECT_LT((read.posterior->factor - posterior.factor).cwiseAbs().maxCoeff(), 1e-8);
   EXPECT_TRUE(read.measured == model.measured && read.measured_gaps == model.measured_gaps &&
-              read.pose_counts == model.pose_counts && read.robot.payloads_kg == model.robot.payloads_kg &&
+              read.pose_counts == model.pose_counts && read.pose_marks == model.pose_marks &&
+              read.robot.payloads_kg == model.robot.payloads_kg &&
               read.robot.temperatures_celsius == model.robot.temperatures_celsius);
 }
 
