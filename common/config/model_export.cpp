@@ -14,11 +14,10 @@
 #include <system_error>
 #include <utility>
 
+#include "closed_calibration/links_alone.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
-#include "effects/arm_state.hpp"
 #include "errors/input_error.hpp"
-#include "expression/bound.hpp"
 #include "kinematics/angles.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/drawn_arm.hpp"
@@ -26,32 +25,12 @@
 #include "kinematics/units.hpp"
 #include "parameters/declared_model.hpp"
 #include "programs/command_model.hpp"
-#include "random/random_stream.hpp"
 #include "urdf/urdf_arm.hpp"
 #include "urdf/urdf_file.hpp"
 #include "yaml/files.hpp"
 
 namespace demecal::inline config {
 namespace {
-
-constexpr int kSampledPoses = 500;
-
-/// Somewhere in what was measured, come to from any side, with any payload of those measured.
-Stop sampled_stop(const CalibratedModel& model, RandomStream& random) {
-  JointVector q(model.nominal.chain.size());
-  ApproachSigns approach(q.size());
-  for (int i = 0; i < q.size(); ++i) {
-    const auto joint = static_cast<std::size_t>(i);
-    const Joint& row = model.nominal.chain.joints[joint];
-    const Interval range = model.measured.empty() ? Interval{row.lower, row.upper} : model.measured[joint];
-    q[i] = random.real(range.lower, range.upper);
-    approach[i] = random.chance(0.5) ? 1.0 : -1.0;
-  }
-  Stop stop(q);
-  stop.approach = approach;
-  if (const auto& carried = model.robot.payloads_kg) stop.payload_kg = random.real(carried->lower, carried->upper);
-  return stop;
-}
 
 std::string rounded_mm_text(double length_m) {
   return number_text(std::round(1e6 * length_m) / 1e3) + " mm";
@@ -119,27 +98,15 @@ CorrectedRobot in_own_base(const CalibratedModel& model) {
   return command_model(model.nominal, robot, std::vector<double>(robot.chain.joints.size(), 0.0)).robot;
 }
 
-std::vector<std::string> lacks_of_links(const CalibratedModel& model) {
-  const CorrectedRobot robot = in_own_base(model);
+std::vector<std::string> lacks_of_links(const CalibratedModel& model, const LinksAlone& alone) {
   std::vector<std::string> notes;
-  const bool corrected = std::ranges::any_of(
-      robot.corrections, [](const JointCorrection& correction) { return !correction.is_neutral(); });
-  const Eigen::Vector3d tool_m = robot.tool("").translation();
-  if (corrected || !robot.effects.empty()) {
-    RandomStream random{1};
-    double sum_m = 0.0, most_m = 0.0;
-    for (int i = 0; i < kSampledPoses; ++i) {
-      const Stop stop = sampled_stop(model, random);
-      const double lack_m = (robot.predict(stop, "").translation() - forward(robot.chain, stop.joints) * tool_m).norm();
-      sum_m += lack_m;
-      most_m = std::max(most_m, lack_m);
-    }
-    notes.push_back("joint corrections and effects are left out, for links cannot hold them: at " +
-                    std::to_string(kSampledPoses) +
-                    " random poses of the measured ranges, come to from either side, they move the tool by " +
-                    rounded_mm_text(sum_m / kSampledPoses) + " on average and " + rounded_mm_text(most_m) +
+  const Eigen::Vector3d tool_m = alone.links.tool("").translation();
+  if (alone.most_m > 0.0)
+    notes.push_back("joint corrections and effects are left out, for links cannot hold them" +
+                    std::string(alone.fitted ? ", and the links are those that come nearest to them" : "") +
+                    ": at random poses of the measured ranges, come to from either side, the tool is off by " +
+                    rounded_mm_text(alone.mean_m) + " on average and " + rounded_mm_text(alone.most_m) +
                     " at most (neither heat nor time counted); `apply` and `export --format c` hold them");
-  }
   if (!model.declared.registration && !model.job.empty())
     notes.emplace_back(
         "links begin at the arm's base as described, for where it stands was not fitted: the first joint's zero and "
@@ -151,7 +118,8 @@ std::vector<std::string> lacks_of_links(const CalibratedModel& model) {
 }
 
 ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& file) {
-  const CorrectedRobot robot = in_own_base(model);
+  const LinksAlone alone = links_alone(model, in_own_base(model));
+  const CorrectedRobot& robot = alone.links;
   ExportedArm exported;
   if (model.nominal.urdf && model.nominal.drawing && model.nominal.drawing->by_axes) {
     exported = rewritten(model, robot, urdf_path(model, file));
@@ -168,7 +136,7 @@ ExportedArm calibrated_urdf(const CalibratedModel& model, const std::string& fil
   }
   if (!robot.chain.couplings.empty())
     exported.notes.emplace_back("couplings between joints are left out: joint values are those of the drives");
-  for (std::string& lack : lacks_of_links(model)) exported.notes.push_back(std::move(lack));
+  for (std::string& lack : lacks_of_links(model, alone)) exported.notes.push_back(std::move(lack));
   return exported;
 }
 
@@ -274,8 +242,9 @@ std::string rounded_number_text(double value) {
 
 ExportedArm ur_calibration(const CalibratedModel& model) {
   const DriverArm driver = driver_arm(model);
-  ExportedArm exported{"", lacks_of_links(model)};
-  const std::vector<Eigen::Isometry3d> frames = frames_on_axes(in_own_base(model).chain);
+  const LinksAlone alone = links_alone(model, in_own_base(model));
+  ExportedArm exported{"", lacks_of_links(model, alone)};
+  const std::vector<Eigen::Isometry3d> frames = frames_on_axes(alone.links.chain);
   std::ostringstream text;
   text << "kinematics:\n";
   Eigen::Isometry3d before = driver.base;

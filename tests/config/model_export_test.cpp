@@ -253,8 +253,26 @@ TEST(ExportedUrdf, SaysWhatTheSideOfApproachDoesThatLinksCannotHold) {
   const TemporaryFolder folder;
   CalibratedModel model = model_of(imported(folder, kUrdf));
   model.robot.effects = {{.kind = "backlash", .joint = 0, .values = {1e-3}}};
-  EXPECT_THAT(lacks_of_links(model),
-              Contains(testing::AllOf(HasSubstr("they move the tool by "), testing::Not(HasSubstr("by 0 mm")))));
+  const LinksAlone alone = links_alone(model, in_own_base(model));
+  EXPECT_THAT(lacks_of_links(model, alone),
+              Contains(testing::AllOf(HasSubstr("the tool is off by "), testing::Not(HasSubstr("by 0 mm")))));
+}
+
+TEST(ExportedUrdf, HasTheLinksThatComeNearestToWhatTheModelDoes) {
+  const TemporaryFolder folder;
+  CalibratedModel model = model_of(imported(folder, kUrdf));
+  model.robot.effects = {{.kind = "gain", .joint = 0, .values = {1e-3}},
+                         {.kind = "joint_offset", .joint = 1, .values = {2e-3}}};
+  for (const Joint& joint : model.nominal.chain.joints)
+    model.measured.push_back({std::max(joint.lower, -0.2), std::min(joint.upper, 0.9)});
+  const LinksAlone nearest = links_alone(model, in_own_base(model));
+  EXPECT_TRUE(nearest.fitted);
+  EXPECT_LT(nearest.mean_m, 0.3e-3) << "links hold a zero whole, and of a gain what it is in the middle";
+  EXPECT_GT(nearest.mean_m, 0.0);
+  model.robot.effects.clear();
+  const LinksAlone own = links_alone(model, in_own_base(model));
+  EXPECT_FALSE(own.fitted);
+  EXPECT_EQ(own.most_m, 0.0);
 }
 
 TEST(ExportedUrdf, SaysWhereTheBaseWasNotFitted) {
@@ -262,9 +280,10 @@ TEST(ExportedUrdf, SaysWhereTheBaseWasNotFitted) {
   CalibratedModel model = model_of(imported(folder, kUrdf));
   model.job = "a job";
   const auto said = Contains(HasSubstr("where it stands was not fitted"));
-  EXPECT_THAT(lacks_of_links(model), said);
+  const LinksAlone alone = links_alone(model, in_own_base(model));
+  EXPECT_THAT(lacks_of_links(model, alone), said);
   model.declared.registration = true;
-  EXPECT_THAT(lacks_of_links(model), testing::Not(said));
+  EXPECT_THAT(lacks_of_links(model, alone), testing::Not(said));
 }
 
 }  // namespace
