@@ -221,6 +221,10 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
   if (outcome_.stopped == StopReason::no_structure && p_structure_ <= options_.family_error)
     outcome_.stopped = StopReason::no_gain;
   linearization = choose_explanation(std::move(linearization), result);
+  if (!model_.robot.effects.empty() && leaves_more(problem_, model_, result.before)) {
+    linearization = linearize(problem_, model_ = result.before);
+    result.front = {}, result.best.reset();
+  }
   measure_pure_error(linearization);
   finish(linearization);
   result.model = model_;

@@ -71,6 +71,10 @@ LoopResult close_loop(const DataSet& data, const DeclaredModel& declared, const 
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
                                  const std::vector<Candidate>& candidates, LoopOutcome& outcome);
 
+/// Whether the model leaves clearly more of the fitted poses' errors than another: robust weights can make of most
+/// poses gross errors, where there are few.
+bool leaves_more(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& than);
+
 /// The sum of squares (m^2) of what the model leaves of the fitted poses' positions, and the freedom they have left.
 struct PositionSums {
   double squares = 0.0, freedom = 0.0;

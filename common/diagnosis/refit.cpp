@@ -81,7 +81,7 @@ std::optional<std::size_t> least_needed(const Linearization& linearization, cons
   return worst;
 }
 
-constexpr double kWorse = 1.05;  ///< a last fit that leaves this much more of its own poses' errors is not taken
+constexpr double kWorse = 1.05;  ///< a fit that leaves this much more of its own poses' errors is not taken
 
 /// Mean squared tool error over the poses, errors beyond ten times the median counted as these.
 double capped_index_m2(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
@@ -156,6 +156,10 @@ void find_next_measurements(const DiagnosisProblem& problem, const DiagnosedMode
   }
 }
 
+bool leaves_more(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& than) {
+  return capped_index_m2(problem, model.robot) > std::pow(kWorse, 2) * capped_index_m2(problem, than.robot);
+}
+
 Linearization eliminate_backward(const DiagnosisProblem& problem, DiagnosedModel& model,
                                  const std::vector<Candidate>& candidates, LoopOutcome& outcome) {
   for (;;) {
@@ -193,7 +197,7 @@ DiagnosedModel final_fit(const DataSet& data, const DeclaredModel& declared, Dia
   DiagnosedModel last = model;
   last.precision = linearize(chosen, model).precision.tail(model.smooth.coefficients.size());
   last = refined(all, std::move(last), kSteps);
-  return capped_index_m2(all, last.robot) <= std::pow(kWorse, 2) * capped_index_m2(all, model.robot) ? last : model;
+  return leaves_more(all, last, model) ? model : last;
 }
 
 }  // namespace demecal::inline diagnosis

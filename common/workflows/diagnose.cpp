@@ -39,12 +39,13 @@
 namespace demecal::inline workflows {
 namespace {
 
-bool determines(const DataSet& data, const DeclaredModel& declared) {
+/// Whether there are so many times as many measured numbers as parameters.
+bool determines(const DataSet& data, const DeclaredModel& declared, double times) {
   std::size_t measured = 0;
   for (const std::size_t pose : poses_of(data, PoseSet::calibration)) {
     measured += static_cast<std::size_t>(rows_of(data.poses[pose]).total());
   }
-  return measured >= 2 * free_parameters(data, declared).size();
+  return static_cast<double>(measured) >= times * static_cast<double>(free_parameters(data, declared).size());
 }
 
 Preparation start_of(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known) {
@@ -113,11 +114,12 @@ void require_same_nominal_arm(const CalibratedModel& model, const DataSet& data)
 }
 
 DeclaredModel declared_by_default(const DataSet& data) {
-  for (const DeclaredModel& declared :
-       {DeclaredModel{.registration = true, .tool = true, .joint_offset = true, .geometry = true},
-        DeclaredModel{.registration = true, .tool = true, .joint_offset = true},
-        DeclaredModel{.registration = true, .tool = true}}) {
-    if (determines(data, declared)) return declared;
+  constexpr double kUnknown = 2.0, kKnownFromMakers = 1.02;
+  const DeclaredModel links{.registration = true, .tool = true, .joint_offset = true, .geometry = true};
+  if (determines(data, links, has_contacts(data) ? kUnknown : kKnownFromMakers)) return links;
+  for (const DeclaredModel& declared : {DeclaredModel{.registration = true, .tool = true, .joint_offset = true},
+                                        DeclaredModel{.registration = true, .tool = true}}) {
+    if (determines(data, declared, kUnknown)) return declared;
   }
   return {.registration = true};
 }

@@ -114,8 +114,9 @@ StudyOutcome run_study(const DataSet& data, std::span<const Job> jobs, std::span
                        const MakeWorkerPool& make_pool, const std::atomic<bool>& interrupt,
                        const CalibrateOptions& options, const std::function<void(const StudyOutcome&)>& on_run);
 
-/// What is declared where the user says nothing: registration, tool, joint offsets and geometry, or as much of it as
-/// leaves twice as many measured numbers as parameters.
+/// What is declared where the user says nothing: registration, tool, joint offsets and geometry, where there are more
+/// measured numbers than parameters (of links more is known: what makers state; of data with contacts twice as many),
+/// or as much of it as leaves twice as many.
 DeclaredModel declared_by_default(const DataSet& data);
 
 struct Diagnosis {

@@ -77,6 +77,12 @@ DeclaredModel declared_by(const DiagnoseRequest& request, const std::optional<Ca
   return declared;
 }
 
+/// Where links are left out for want of poses, what they make wrong would be laid at other doors.
+bool names_no_causes(const DiagnoseRequest& request, const DeclaredModel& declared) {
+  return request.declared.empty() && request.model_file.empty() && request.prior_files.empty() && !declared.geometry &&
+         request.loop == ClosedLoopOptions{};
+}
+
 Job diagnosis_job(const DiagnoseRequest& request, const DeclaredModel& declared) {
   Job job;
   job.name = std::filesystem::path(request.data_files.front()).stem().string();
@@ -86,6 +92,7 @@ Job diagnosis_job(const DiagnoseRequest& request, const DeclaredModel& declared)
   job.declared = declared;
   job.closed_loop = request.loop;
   if (request.no_evolution) job.explanations.variations = 0;
+  if (names_no_causes(request, declared)) job.closed_loop.max_effects = 0;
   return job;
 }
 
@@ -133,8 +140,10 @@ ExitCode run_diagnose(const DiagnoseRequest& request) {
   }
   LoopDisplay display(stderr, data.robot, request.quiet);
   if (request.declared.empty() && !known && !job.declared.geometry) {
-    fmt::print(stderr, "too few poses to declare more than {}; --declare LIST decides otherwise\n",
-               fmt::join(job.declared.words(), ", "));
+    const bool silent = names_no_causes(request, job.declared);
+    fmt::print(stderr, "too few poses to declare more than {}{}; --declare LIST decides otherwise\n",
+               fmt::join(job.declared.words(), ", "),
+               silent ? ", or to tell other causes from the links': none is looked for" : "");
   }
   display.say(fmt::format("{} on {}: {} poses, declared: {}", data.robot.name, data.name, data.poses.size(),
                           fmt::join(job.declared.words(), ", ")));

@@ -108,7 +108,9 @@ TEST(UpdateModel, SaysThatItWasInterruptedThoughItKeepsTheOldModel) {
 TEST(Diagnose, DeclaresByDefaultWhatThePosesDetermine) {
   Scenario scenario = lacking_puma(true);
   EXPECT_TRUE(declared_by_default(simulate(scenario)).geometry);
-  scenario.poses = {12, 0, 0};
+  scenario.poses = {15, 0, 0};
+  EXPECT_TRUE(declared_by_default(simulate(scenario)).geometry) << "makers state links, which is known beside";
+  scenario.poses = {10, 0, 0};
   const DeclaredModel few = declared_by_default(simulate(scenario));
   EXPECT_FALSE(few.geometry);
   EXPECT_TRUE(few.joint_offset);
