@@ -47,7 +47,8 @@ LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double 
     const Eigen::Index first = rows.field.first_row[pose], count = rows.field.rows_of_pose(pose);
     const Eigen::VectorXd error =
         Cholesky(inverse.block(first, first, count, count)).solve(whitened.segment(first, count));
-    result.squares += error.squaredNorm();
+    result.by_pose.push_back(error.squaredNorm());
+    result.squares += result.by_pose.back();
     const double square = error.dot(whitened.segment(first, count)) / static_cast<double>(count);
     result.standard.push_back(std::sqrt(std::max(0.0, square)));
   }

@@ -12,6 +12,7 @@ namespace demecal::inline updating {
 /// What all other poses predict of each, all sizes being as they are.
 struct LeftOut {
   double squares = 0.0;          ///< of the rows' errors
+  std::vector<double> by_pose;   ///< the same
   std::vector<double> standard;  ///< root mean square per pose, in predicted deviations
 };
 LeftOut left_out(const Eigen::MatrixXd& covariance, const NewRows& rows, double noise);

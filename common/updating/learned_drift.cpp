@@ -17,6 +17,7 @@
 #include "prediction/corrected_robot.hpp"
 #include "updating/fleet_curves.hpp"
 #include "updating/fleet_numbers.hpp"
+#include "updating/motion_sizes.hpp"
 
 namespace demecal::inline updating {
 namespace {

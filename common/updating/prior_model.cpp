@@ -25,6 +25,7 @@
 #include "random/random_stream.hpp"
 #include "updating/fleet_curves.hpp"
 #include "updating/known_places.hpp"
+#include "updating/motion_sizes.hpp"
 
 namespace demecal::inline updating {
 namespace {
@@ -32,16 +33,31 @@ namespace {
 constexpr double kBase = 5e-3, kTool = 5e-3;  ///< m and rad about where base and tool were found
 
 bool is_place(const ParameterId& id) {
-  using Kind = ParameterId::Kind;
-  return id.kind == Kind::base_translation || id.kind == Kind::base_rotation || id.kind == Kind::tool_translation ||
-         id.kind == Kind::tool_rotation || id.kind == Kind::station;
+  return id.is_of_base() || id.is_of_tool() || id.kind == ParameterId::Kind::station;
+}
+
+bool has_moved(const ParameterId& id, const Moved& moved, const Chain& chain) {
+  return std::ranges::any_of(moved.zeros, [&](int joint) { return id == zero_of(chain, joint); });
+}
+
+bool knows(const CalibratedModel& model, const ParameterId& id) {
+  return model.posterior && std::ranges::find(model.posterior->ids, id) != model.posterior->ids.end();
+}
+
+/// Whether a base's, tool's or station's number may be anything.
+bool is_anywhere(const ParameterId& id, const CalibratedModel& model, const Moved& moved) {
+  return is_place(id) && ((id.is_of_tool() ? moved.tool : moved.base) || !knows(model, id));
 }
 
 std::vector<ParameterId> numbers_of(const CalibratedModel& model, const CorrectedRobot& robot, const DataSet& data,
-                                    const DeclaredModel& declared) {
+                                    const DeclaredModel& declared, const Moved& moved) {
   DeclaredModel placed = declared;
   placed.registration = placed.tool = true;
   std::vector<ParameterId> ids = free_parameters(data, placed);
+  for (const int joint : moved.zeros) {
+    const ParameterId id = zero_of(robot.chain, joint);
+    if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
+  }
   if (model.posterior) {
     for (const ParameterId& id : model.posterior->ids) {
       const bool new_link = id.kind == ParameterId::Kind::link && std::ranges::find(ids, id) == ids.end();
@@ -121,43 +137,27 @@ double ripple_variance(const CalibratedModel& model, const CorrectedRobot& robot
 
 }  // namespace
 
-bool is_of_transmission(const Effect& effect) {
-  return cause_of(effect.kind).group == CauseGroup::transmission;
-}
-
-std::vector<std::vector<double>> unit_motion_sizes(const CorrectedRobot& robot, const DataSet& data,
-                                                   std::span<const std::size_t> poses) {
-  std::vector<std::vector<double>> sums(robot.effects.size());
-  std::vector<UnitMotion> units;
-  for (std::size_t i = 0; i < robot.effects.size(); ++i) {
-    sums[i].assign(law_of(robot.effects[i]).coefficients(robot.effects[i], data.robot).size(), 0.0);
-    Effect everywhere = robot.effects[i];
-    everywhere.ranges.clear();
-    for (const std::size_t pose : poses) {
-      units.clear();
-      append_unit_motions(everywhere, data.robot, arm_state(data.robot, Stop(data.poses[pose])), units);
-      for (const UnitMotion& unit : units)
-        sums[i][static_cast<std::size_t>(unit.coefficient)] +=
-            unit.size * unit.size / static_cast<double>(poses.size());
-    }
-    for (double& sum : sums[i]) sum = std::sqrt(sum);
-  }
-  return sums;
+ParameterId zero_of(const Chain& chain, int joint) {
+  return {.kind = ParameterId::Kind::link,
+          .index = joint,
+          .link = moving_parameter(chain.joints[static_cast<std::size_t>(joint)])};
 }
 
 PriorModel::PriorModel(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
-                       std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift)
+                       std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift,
+                       const Moved& moved)
     : robot_(placed),
-      ids_(numbers_of(model, placed, data, declared)),
+      ids_(numbers_of(model, placed, data, declared, moved)),
       ripples_(waves_about(model, placed, data, poses)) {
   for (Effect& effect : robot_.effects)
     effect.values.resize(law_of(effect).coefficients(effect, data.robot).size(), 0.0);
-  believe_numbers(model, data, drift, poses);
+  believe_numbers(model, data, drift, poses, moved);
   believe_ripples(model, data, drift);
 }
 
 void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift,
-                                 std::span<const std::size_t> poses) {
+                                 std::span<const std::size_t> poses, const Moved& moved) {
+  constexpr double kJump = 0.1;  ///< rad or m
   const FitOptions options;
   const auto n = static_cast<Eigen::Index>(ids_.size());
   stated_ = Eigen::MatrixXd::Zero(n, n);
@@ -166,15 +166,15 @@ void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& da
   std::vector<Eigen::Index> here, there;
   for (Eigen::Index i = 0; i < n; ++i) {
     const ParameterId& id = ids_[static_cast<std::size_t>(i)];
-    if (is_place(id)) {
+    if (is_anywhere(id, model, moved)) {
       const double usual = id.is_of_tool() ? kTool : kBase;
       stated_(i, i) = usual * usual;
       continue;
     }
-    if (id.kind == ParameterId::Kind::link) {
-      const double size = !id.is_angle()                    ? drift.length_m
-                          : id.link == LinkParameter::theta ? drift.offset_rad
-                                                            : drift.angle_rad;
+    if (has_moved(id, moved, robot_.chain)) stated_(i, i) = kJump * kJump;
+    if (id.kind != ParameterId::Kind::effect) {
+      const bool offset = id.kind == ParameterId::Kind::link && id.link == LinkParameter::theta;
+      const double size = !id.is_angle() ? drift.length_m : offset ? drift.offset_rad : drift.angle_rad;
       link_drift_[i] = size * size;
     } else {
       const double motion = motions[static_cast<std::size_t>(id.index)][static_cast<std::size_t>(id.coefficient)];
@@ -184,16 +184,11 @@ void PriorModel::believe_numbers(const CalibratedModel& model, const DataSet& da
                                 : drift.effect_motion;
       effect_drift_[i] = motion > 0.0 ? std::pow(drifts / motion, 2.0) : 0.0;
     }
-    Eigen::Index known = -1;
-    if (model.posterior) {
-      const auto found = std::ranges::find(model.posterior->ids, id);
-      if (found != model.posterior->ids.end()) known = found - model.posterior->ids.begin();
-    }
-    if (known >= 0) {
+    if (knows(model, id)) {
       here.push_back(i);
-      there.push_back(known);
+      there.push_back(std::ranges::find(model.posterior->ids, id) - model.posterior->ids.begin());
     } else if (id.kind == ParameterId::Kind::link) {
-      stated_(i, i) = std::pow(id.is_angle() ? options.prior_rad : options.prior_m, 2.0);
+      stated_(i, i) += std::pow(id.is_angle() ? options.prior_rad : options.prior_m, 2.0);
     }
   }
   if (here.empty()) return;

@@ -11,9 +11,9 @@
 
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
-#include "effects/effect.hpp"
 #include "expression/bound.hpp"
 #include "fitting/tall_products.hpp"
+#include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
@@ -33,13 +33,15 @@ struct AssumedDrift {
   double ripple_rad = 3e-5;        ///< of a joint over its turn
 };
 
-/// Root mean square of what a unit of each coefficient of the robot's effects moves at the poses, rad or m: by effect
-/// and coefficient, wherever the effect was found.
-std::vector<std::vector<double>> unit_motion_sizes(const CorrectedRobot& robot, const DataSet& data,
-                                                   std::span<const std::size_t> poses);
+/// What is believed to have moved since the model was found, by any amount. A base or tool that has not is where the
+/// model has it, as surely as it knows that, and drifts as links do.
+struct Moved {
+  bool base = true, tool = true;
+  std::vector<int> zeros{};  ///< joints, from 0
+};
 
-/// Whether the effect is of gears and encoders: their errors drift as AssumedDrift::transmission_rad.
-bool is_of_transmission(const Effect& effect);
+/// The number that says where a joint is zero.
+ParameterId zero_of(const Chain& chain, int joint);
 
 /// Parts of the belief whose sizes new poses may change: each is multiplied by a factor that they make likeliest.
 enum class BeliefPart { links, effects, outside, ripple };
@@ -57,10 +59,11 @@ using PartFactors = std::array<double, kBeliefParts>;
 /// A fleet's mean does not change: what is believed is how far a robot of the type is from it, as its posterior states.
 class PriorModel {
  public:
-  /// `placed`: the model's robot with base and tool where `data` have them. Numbers declared that the model does not
-  /// know are believed as the maker states them.
+  /// `placed`: the model's robot with what moved of base and tool where `data` have it. Numbers declared that the model
+  /// does not know are believed as the maker states them.
   PriorModel(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
-             std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift = {});
+             std::span<const std::size_t> poses, const DeclaredModel& declared, const AssumedDrift& drift = {},
+             const Moved& moved = {});
 
   const CorrectedRobot& robot() const { return robot_; }
   const std::vector<ParameterId>& ids() const { return ids_; }
@@ -83,7 +86,7 @@ class PriorModel {
 
  private:
   void believe_numbers(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift,
-                       std::span<const std::size_t> poses);
+                       std::span<const std::size_t> poses, const Moved& moved);
   void believe_ripples(const CalibratedModel& model, const DataSet& data, const AssumedDrift& drift);
 
   CorrectedRobot robot_;

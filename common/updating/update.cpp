@@ -25,9 +25,12 @@
 #include "residuals/smooth_corrections.hpp"
 #include "updating/belief_sizes.hpp"
 #include "updating/gross_poses.hpp"
+#include "updating/single_change.hpp"
 
 namespace demecal::inline updating {
 namespace {
+
+constexpr std::size_t kMostLeftOut = 150;  ///< poses
 
 /// The most probable change, and a root of its covariance.
 struct Solution {
@@ -106,11 +109,74 @@ Posterior posterior_of_update(const PriorModel& prior, const Eigen::MatrixXd& ro
   return posterior;
 }
 
-void say_changes(const BeliefSizes& sizes, const DataSet& data, bool of_fleet, Update& update) {
+/// A way of updating, and what came of it.
+struct Trial {
+  PriorModel prior;
+  RowScales scales;
+  Solution solution{};
+  BeliefSizes sizes{};
+  std::vector<std::size_t> used{}, gross{};
+  bool as_known = false;  ///< nothing drifted: what did not move is changed by as much as the model does not know it
+  LeftOut others{};       ///< of the poses used
+};
+
+Trial tried(PriorModel believed, const CalibratedModel& model, const DataSet& data,
+            const std::vector<std::size_t>& poses, const RowScales& scales) {
+  constexpr int kSteps = 3;
+  constexpr double kNothing = 1e-8;
+  Trial trial{std::move(believed), scales};
+  trial.used = poses;
+  const PriorModel& prior = trial.prior;
+  const JointSizes joints = model.fleet ? JointSizes::alike : JointSizes::each;
+  trial.solution.change = Eigen::VectorXd::Zero(prior.numbers());
+  for (int step = 0; step < kSteps; ++step) {
+    const bool many = trial.used.size() > kMostLeftOut;
+    const NewRows rows = rows_about(prior, data, trial.used, trial.scales, trial.solution.change, many && step > 0);
+    trial.sizes = likeliest_sizes(prior, rows, joints);
+    Eigen::MatrixXd covariance = prior.covariance(trial.sizes.factors, trial.sizes.of_joint);
+    if (!many) {
+      trial.others = left_out(covariance, rows, trial.sizes.noise);
+      if (step == 0) {
+        trial.gross = gross_poses(prior, rows, trial.sizes, joints);
+        std::erase_if(trial.used, [&](std::size_t pose) { return std::ranges::binary_search(trial.gross, pose); });
+      }
+      // A robot may be as it was; none is its fleet's mean.
+      const Eigen::MatrixXd little = prior.covariance({kNothing, kNothing, kNothing, kNothing}, trial.sizes.of_joint);
+      LeftOut by_little = left_out(little, rows, trial.sizes.noise);
+      trial.as_known = !model.fleet && by_little.squares < trial.others.squares;
+      if (trial.as_known) {
+        covariance = little;
+        trial.others = std::move(by_little);
+      }
+    }
+    trial.solution = solve(covariance, rows, trial.sizes.noise);
+    // By the rows' medians; told anew in every step, since what the old model errs by hides how instruments differ.
+    if (step + 1 == kSteps) break;
+    const CorrectedRobot present = prior.changed(trial.solution.change);
+    trial.scales.stations =
+        scales_of_stations(data, present, observe(data, trial.used, present), trial.scales).stations;
+  }
+  return trial;
+}
+
+/// Whether all others predict each pose better by `one` way, of those that both use; leaving more of them out is no
+/// better way.
+bool predicts_better(const Trial& one, const Trial& other) {
+  if (one.gross.size() > other.gross.size()) return false;
+  const auto squares = [](const Trial& of, const Trial& beside) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < of.used.size(); ++i)
+      if (std::ranges::count(beside.used, of.used[i]) > 0) sum += of.others.by_pose[i];
+    return sum;
+  };
+  return squares(one, other) < squares(other, one);
+}
+
+void say_changes(const Trial& trial, const DataSet& data, bool of_fleet, Update& update) {
   constexpr double kMuch = 3.0;
   for (std::size_t part = 0; part < kBeliefParts; ++part) {
-    const double times = std::sqrt(sizes.factors[part]);
-    if (times <= kMuch) continue;
+    const double times = std::sqrt(trial.sizes.factors[part]);
+    if (trial.as_known || times <= kMuch) continue;
     const std::string_view what = to_string(static_cast<BeliefPart>(part));
     update.sentences.push_back(
         of_fleet ? fmt::format("The new poses show {} to be {:.1f} times as far from the fleet's mean as is usual for "
@@ -133,47 +199,31 @@ void say_changes(const BeliefSizes& sizes, const DataSet& data, bool of_fleet, U
 
 Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
                const std::vector<std::size_t>& poses, const DeclaredModel& declared, const AssumedDrift& drift) {
-  constexpr int kSteps = 3;
-  constexpr std::size_t kMostLeftOut = 150;  ///< poses
-  constexpr double kNothing = 1e-8;
-  const PriorModel prior(model, placed, data, poses, declared, drift);
-  const JointSizes joints = model.fleet ? JointSizes::alike : JointSizes::each;
-  RowScales scales = scales_of_new_poses(data, placed, poses, model.interval);
+  const RowScales scales = scales_of_new_poses(data, placed, poses, model.interval);
+  Trial best = tried({model, placed, data, poses, declared, drift}, model, data, poses, scales);
   Update update;
-  Solution solution{Eigen::VectorXd::Zero(prior.numbers()), {}};
-  BeliefSizes sizes;
-  Eigen::MatrixXd covariance;
-  std::vector<std::size_t> used = poses;
-  for (int step = 0; step < kSteps; ++step) {
-    const bool many = used.size() > kMostLeftOut;
-    const NewRows rows = rows_about(prior, data, used, scales, solution.change, many && step > 0);
-    sizes = likeliest_sizes(prior, rows, joints);
-    covariance = prior.covariance(sizes.factors, sizes.of_joint);
-    if (!many) {
-      const LeftOut all = left_out(covariance, rows, sizes.noise);
-      if (step == 0) {
-        update.gross = gross_poses(prior, rows, sizes, joints);
-        std::erase_if(used, [&](std::size_t pose) { return std::ranges::binary_search(update.gross, pose); });
+  if (poses.size() <= kMostLeftOut) {
+    if (const auto change = single_change(model, data, poses)) {
+      Trial other =
+          tried({model, change->placed, data, poses, declared, drift, change->moved}, model, data, poses, scales);
+      if (predicts_better(other, best)) {
+        best = std::move(other);
+        update.moved = change->moved;
       }
-      // A robot may be as it was; none is its fleet's mean.
-      const Eigen::MatrixXd little = prior.covariance({kNothing, kNothing, kNothing, kNothing}, sizes.of_joint);
-      update.base_and_tool_only = !model.fleet && left_out(little, rows, sizes.noise).squares < all.squares;
-      if (update.base_and_tool_only) covariance = little;
     }
-    solution = solve(covariance, rows, sizes.noise);
-    // By the rows' medians; told anew in every step, since what the old model errs by hides how instruments differ.
-    if (step + 1 == kSteps) break;
-    const CorrectedRobot present = prior.changed(solution.change);
-    scales.stations = scales_of_stations(data, present, observe(data, used, present), scales).stations;
   }
-  for (double& scale : scales) scale *= std::sqrt(sizes.noise);
-  update.robot = prior.changed(solution.change);
-  set_errors_of_effects(prior, solution.root, update.robot);
-  update.fitted = {posterior_of_update(prior, solution.root), scales};
-  update.estimates = updated_estimates(prior, update.robot, data, solution.root);
-  update.factors = sizes.factors;
-  update.noise_factor = sizes.noise;
-  say_changes(sizes, data, model.fleet.has_value(), update);
+  const PriorModel& prior = best.prior;
+  for (double& scale : best.scales) scale *= std::sqrt(best.sizes.noise);
+  update.robot = prior.changed(best.solution.change);
+  set_errors_of_effects(prior, best.solution.root, update.robot);
+  update.fitted = {posterior_of_update(prior, best.solution.root), best.scales};
+  update.estimates = updated_estimates(prior, update.robot, data, best.solution.root);
+  update.factors = best.sizes.factors;
+  update.noise_factor = best.sizes.noise;
+  update.gross = best.gross;
+  update.base_and_tool_only = best.as_known && !update.moved;
+  say_changes(best, data, model.fleet.has_value(), update);
+  if (update.moved) update.sentences.push_back(sentence_of(*update.moved, model.robot, update.robot, best.as_known));
   return update;
 }
 
