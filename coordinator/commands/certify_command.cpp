@@ -164,8 +164,9 @@ ExitCode run_certify(const CertifyRequest& request) {
   if (request.json) {
     fmt::print("{}", to_json(certificate));
   } else {
-    fmt::print("{}\n{}/certificate.html\n{}/certificate.xml{}\n{}\n", certificate_summary(certificate), request.out,
-               request.out, is_signed ? " (signed)" : "", pdf);
+    // The verdict once more: the last line is what a list of jobs shows of a run.
+    fmt::print("{}\n{}/certificate.html\n{}/certificate.xml{}\n{}\n{}\n", certificate_summary(certificate), request.out,
+               request.out, is_signed ? " (signed)" : "", pdf, verdict_sentence(certificate));
   }
   return ExitCode::done;
 }

@@ -24,6 +24,9 @@ TEST(Certify, EndsWellWhateverTheVerdict) {
   ASSERT_EQ(json.code, 0) << json.err;
   EXPECT_TRUE(has(wide.out, "Undecided: so few prove nothing of others")) << wide.out;
   EXPECT_TRUE(has(narrow.out, "Non-conformity proved")) << narrow.out;
+  // A list of jobs shows the last line of each.
+  const std::string last = narrow.out.substr(narrow.out.rfind('\n', narrow.out.size() - 2) + 1);
+  EXPECT_TRUE(last.starts_with("Non-conformity proved")) << last;
   EXPECT_TRUE(has(wide.out, "not measured")) << "RP without repeats";
   const Json said = Json::parse(json.out);
   EXPECT_EQ(said["judgement"]["verdict"], "undecided");
