@@ -160,8 +160,8 @@ const rounded = formula => (formula ?? '').replace(/\d+\.\d{4,}(e[+-]?\d+)?/g, n
 
 function drawTables(calibration, run) {
   const best = [...(run?.best.values() ?? [])].sort((a, b) => a.joint - b.joint), ofSets = run?.data?.breeds === 'sets';
-  text($('besttitle'), ofSets ? 'Best explanation' : 'Best formulas');
-  text($('bestnote'), ofSets ? 'fitness: exp(description length / measured numbers), 1 without any cause; length: effects' : 'theta in rad; constants rounded');
+  text($('besttitle'), ofSets ? 'Best explanation' : 'Best evolved formulas');
+  text($('bestnote'), ofSets ? 'fitness: exp(description length / measured numbers), 1 without any cause; length: effects' : 'of the evolution that runs or ran last; theta in rad; constants rounded. The model may hold sums of smooth terms, fitted to the poses, in their place: report.html says which');
   text($('besthead'), ofSets ? 'causes' : 'formula');
   text($('frontnote'), `best fitness that ${ofSets ? 'sets of so many effects' : 'formulas of each length'} reached`);
   rows($('formulas'), best, e => [ofSets ? 'all' : String(e.joint), short(e.best_fitness), String(e.best_length), rounded(e.best_formula) || '–']);
