@@ -210,10 +210,25 @@ void EventLog::on_round(const Round& round, const Robot& described) {
   news.text = round.verdict == Verdict::added ? round.diagnosis : round.reason;
   news.validation_before_m = 1e-3 * round.validation_before_mm;
   news.validation_after_m = 1e-3 * round.validation_after_mm;
+  rounds_[news.round] = news;
   publish(news);
 }
 
+void EventLog::tell_of_rounds(const Report& report) {
+  for (const RoundEntry& round : report.rounds) {
+    const auto told = rounds_.find(static_cast<std::uint32_t>(round.round));
+    if (told == rounds_.end() || !round.added() || told->second.label != round.effect.name()) continue;
+    LoopNews& news = told->second;
+    if (news.verdict == LoopNews::Verdict::added && news.text == round.diagnosis) continue;
+    news.stage = stage_.stage;
+    news.verdict = LoopNews::Verdict::added;
+    news.text = round.diagnosis;
+    publish(news);
+  }
+}
+
 void EventLog::tell_of(const Report& report) {
+  tell_of_rounds(report);
   for (std::size_t i = 0; i < report.causes.size(); ++i) {
     publish(cause_found(report.causes[i], stage_.calibration, static_cast<std::uint32_t>(i + 1)));
   }

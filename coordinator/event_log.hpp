@@ -61,7 +61,7 @@ class EventLog final : public CalibrationObserver {
   void on_worker(const WorkerStatus& status) override;
   void on_lost(const std::string& worker) override { file_.note(WorkerLost{worker}); }
   void on_round(const Round& round, const Robot& described) override;
-  /// What was found, before the last stage.
+  /// What was found, before the last stage; rounds again whose effects the last fit changed.
   void tell_of(const Report& report);
   /// The same, and that the calibration is over: finished, with the figures it is judged by, or interrupted.
   void finish(const Report& report, bool interrupted);
@@ -69,6 +69,7 @@ class EventLog final : public CalibrationObserver {
   void finish(LoopNews::Stage stage, const std::string& text);
 
  private:
+  void tell_of_rounds(const Report& report);
   void publish_stage(LoopNews::Stage stage, const std::string& text);
   void publish(const Message& message);
 
@@ -78,6 +79,7 @@ class EventLog final : public CalibrationObserver {
   std::map<IslandKey, Progress> reached_;  ///< in the present run
   std::uint32_t evolutions_ = 0;
   bool of_sets_ = false;                         ///< whether the present run breeds sets of effects
+  std::map<std::uint32_t, LoopNews> rounds_;     ///< as told, by number
   std::map<std::string, WorkerStatus> workers_;  ///< as recorded
 };
 

@@ -21,6 +21,10 @@
 
 namespace demecal::inline calibration {
 
+/// How a correction's formula came about, as far as that is known: by evolution, as a sum of smooth terms that was
+/// fitted to the poses, or as what evolved with such a sum added to it.
+enum class FormulaOrigin { unstated, evolved, smooth_terms, evolved_and_smooth_terms };
+
 /// Mean absolute joint error over the calibration poses (thesis Table 6-5), rad.
 struct JointSummary {
   int joint = 0;      ///< from 0
@@ -30,7 +34,11 @@ struct JointSummary {
   double bound_rad = 0.0;  ///< of the correction over its range
   std::vector<double> discontinuities_rad{};
   std::string note;  ///< why a joint was left neutral; empty where it was not
+  FormulaOrigin origin = FormulaOrigin::unstated;
 };
+
+/// The word of files; empty where it is not stated.
+std::string to_string(FormulaOrigin origin);
 
 /// One summary per joint of `robot`, without notes. `declared`: the joints' errors before anything but the declared
 /// numbers was in the model; `now`: what they are of the robot without its corrections. Errors are NaN where there

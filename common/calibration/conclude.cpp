@@ -84,6 +84,20 @@ Calibration with_best_corrections(const DataSet& data, const Job& job, const Pre
 
 }  // namespace
 
+std::string to_string(FormulaOrigin origin) {
+  switch (origin) {
+    case FormulaOrigin::evolved:
+      return "evolved";
+    case FormulaOrigin::smooth_terms:
+      return "smooth_terms";
+    case FormulaOrigin::evolved_and_smooth_terms:
+      return "evolved_and_smooth_terms";
+    case FormulaOrigin::unstated:
+      break;
+  }
+  return {};
+}
+
 std::vector<JointSummary> joint_summaries(const JointTargets& declared, const JointTargets& now,
                                           const CorrectedRobot& robot) {
   std::vector<JointSummary> summaries;
@@ -140,6 +154,7 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   result.joints = joint_summaries(
       preparation.targets, exact ? preparation.targets : targets_about(data, preparation, result.robot), result.robot);
   for (JointSummary& summary : result.joints) {
+    if (summary.kept) summary.origin = FormulaOrigin::evolved;
     if (!summary.kept) summary.note = why_neutral(job, candidates, data, summary.joint);
   }
   const std::vector<std::size_t> fitted = poses_of(data, PoseSet::calibration);

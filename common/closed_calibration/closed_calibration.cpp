@@ -49,7 +49,7 @@ class LoopPasses {
   ClosedCalibration run(const RoundWatcher& watch);
 
  private:
-  void adopt(LoopResult found);
+  void adopt(LoopResult found, const std::vector<JointSummary>& start);
   bool run_pass(const RoundWatcher& watch);
   Fit loop_start_from(const CorrectedRobot& robot) const;
   LoopResult run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
@@ -87,8 +87,11 @@ bool LoopPasses::is_better(const CorrectedRobot& robot) const {
          performance_index_mm2(closed_.calibration.robot, data_, selection_poses_);
 }
 
-void LoopPasses::adopt(LoopResult found) {
-  closed_.calibration = calibration_of(data_, job_.declared, preparation_, found.model);
+/// `start`: of the corrections that it began with.
+void LoopPasses::adopt(LoopResult found, const std::vector<JointSummary>& start) {
+  Calibration calibration = calibration_of(data_, job_.declared, preparation_, found.model);
+  set_origins(found.model, start, calibration);
+  closed_.calibration = std::move(calibration);
   adopted_ = std::move(found.model);
   front_ = std::move(found.front);
   best_ = std::move(found.best);
@@ -130,7 +133,7 @@ bool LoopPasses::run_pass(const RoundWatcher& watch) {
     before_ = found.before;
   }
   closed_.loop = first ? std::move(found.outcome) : joined(std::move(closed_.loop), std::move(found.outcome));
-  if ((first && added) || is_better(found.model.robot)) adopt(std::move(found));
+  if ((first && added) || is_better(found.model.robot)) adopt(std::move(found), closed_.calibration.joints);
   return added && !stopped_;
 }
 
@@ -160,6 +163,11 @@ bool LoopPasses::evolve_corrections_again() {
   }
   Calibration evolved = conclude(data_, job_, again, candidates.joints);
   keep_first_figures(first_, evolved);
+  for (std::size_t joint = 0; joint < evolved.joints.size(); ++joint) {
+    const JointCorrection& chosen = evolved.robot.corrections[joint];
+    if (!chosen.is_neutral() && chosen.formula() == shortened(present.corrections[joint]).formula())
+      evolved.joints[joint].origin = closed_.calibration.joints[joint].origin;
+  }
   if (!is_better(evolved.robot)) return false;
   closed_.calibration = std::move(evolved);
   adopted_.reset();
@@ -181,7 +189,9 @@ void LoopPasses::refit_with_validation() {
       error_budget_of(data_, declared, ends.after, front, last ? last->ends.after : ends.after, job_.seed);
   if (adopted_) closed_.best = calibration_of_best(data_, declared, preparation_, std::move(best_));
   if (last) {
+    const std::vector<JointSummary> start = std::move(closed_.calibration.joints);
     closed_.calibration = calibration_of(data_, declared, preparation_, last->ends.after);
+    set_origins(last->ends.after, start, closed_.calibration);
     closed_.calibration.unseen = last->unseen;
   }
   closed_.calibration.budget = std::move(budget);
@@ -222,13 +232,15 @@ void LoopPasses::run_formula_pass(const RoundWatcher& watch) {
   candidates.insert(candidates.end(), search.formulas.begin(), search.formulas.end());
   ++pass_;
   LoopResult found = run_loop(bare, std::move(search), watch);
+  Calibration begun = closed_.calibration;
+  set_origins(found.model, closed_.calibration.joints, begun);
   restart_if_better(problem, found.model);
   if (!describes_better(found.model.robot, closed_.calibration.robot, data_, candidates)) {
     append_rejected_rounds(found.outcome, closed_.calibration.robot, closed_.loop);
     return;
   }
   closed_.loop = joined(std::move(closed_.loop), std::move(found.outcome));
-  adopt(std::move(found));
+  adopt(std::move(found), begun.joints);
 }
 
 ClosedCalibration LoopPasses::run(const RoundWatcher& watch) {

@@ -102,9 +102,28 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
     if (summary.kept) continue;
     summary.note = why_uncorrected(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);
   }
+  set_origins(model, {}, result);
   result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);
   result.index_after_mm2 = performance_index_mm2(result.robot, data, fitted);
   return result;
+}
+
+void set_origins(const DiagnosedModel& model, const std::vector<JointSummary>& start, Calibration& calibration) {
+  const SmoothCorrections& smooth = model.smooth;
+  for (std::size_t joint = 0; joint < calibration.joints.size(); ++joint) {
+    JointSummary& summary = calibration.joints[joint];
+    summary.origin = FormulaOrigin::unstated;
+    if (!summary.kept) continue;
+    const bool has_base = joint < smooth.base.size() && !smooth.base[joint].is_neutral();
+    bool has_terms = false;
+    for (std::size_t i = 0; i < smooth.terms.size(); ++i)
+      has_terms = has_terms || (smooth.terms[i].joint == static_cast<int>(joint) &&
+                                smooth.coefficients[static_cast<Eigen::Index>(i)] != 0.0);
+    if (has_base && joint < start.size()) summary.origin = start[joint].origin;
+    if (!has_base) summary.origin = FormulaOrigin::smooth_terms;
+    if (has_base && has_terms && summary.origin == FormulaOrigin::evolved)
+      summary.origin = FormulaOrigin::evolved_and_smooth_terms;
+  }
 }
 
 Preparation prepare_beside_effects(const DataSet& data, const Preparation& first, const CorrectedRobot& model) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "calibration/calibration.hpp"
 #include "calibration/job.hpp"
@@ -30,9 +31,13 @@ CorrectedRobot better_start(const DataSet& data, const DeclaredModel& declared, 
 void drop_negligible_terms(DiagnosedModel& model);
 
 /// A calibration whose robot is a model of the loop: its numbers with standard errors, and what is left of the joints'
-/// errors with the corrections in place.
+/// errors with the corrections in place. Where these are from is said of those that the loop has made.
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
                            const DiagnosedModel& model);
+
+/// Sets where the corrections of `calibration`, which calibration_of() made of `model`, are from, when `start` are the
+/// summaries of the corrections that the loop began with.
+void set_origins(const DiagnosedModel& model, const std::vector<JointSummary>& start, Calibration& calibration);
 
 /// The same of the model of the least error, where it is not the chosen one, after the last fit.
 std::optional<Calibration> calibration_of_best(const DataSet& data, const DeclaredModel& declared,

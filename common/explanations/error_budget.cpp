@@ -21,7 +21,6 @@ namespace demecal::inline explanations {
 namespace {
 
 using SquaredErrors_mm2 = std::vector<double>;  ///< of the judging poses
-
 SquaredErrors_mm2 squared_errors(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
   SquaredErrors_mm2 errors;
   for (const double error_m : tool_errors_m(robot, data, poses)) errors.push_back(std::pow(millimetres(error_m), 2));
@@ -39,10 +38,6 @@ std::vector<std::size_t> judging_poses(const DiagnosisProblem& problem, const Co
   return kept;
 }
 
-double root_of_fall(double without_mm2, double with_mm2) {
-  return std::sqrt(std::max(without_mm2 - with_mm2, 0.0));
-}
-
 /// 95 % of the root of the fall of the mean square when poses are drawn anew.
 std::array<double, 2> fall_interval(const SquaredErrors_mm2& without, const SquaredErrors_mm2& with,
                                     RandomStream& random) {
@@ -54,7 +49,7 @@ std::array<double, 2> fall_interval(const SquaredErrors_mm2& without, const Squa
       const std::size_t pose = random.index(with.size());
       fall_mm2 += (without[pose] - with[pose]) / static_cast<double>(with.size());
     }
-    falls_mm.push_back(root_of_fall(fall_mm2, 0.0));
+    falls_mm.push_back(std::sqrt(std::max(fall_mm2, 0.0)));
   }
   std::ranges::sort(falls_mm);
   return {falls_mm[kDraws / 40], falls_mm[kDraws - 1 - kDraws / 40]};
@@ -160,6 +155,50 @@ std::vector<PricedEffect> effects_of(const DiagnosedModel& model) {
   return effects;
 }
 
+/// What a model leaves at some poses, and to first order what it leaves with other effects: the mean square of a set is
+/// the model's own and by how much that of the set, linearised about the model, exceeds that of the model's own set.
+class ErrorsOfSets {
+ public:
+  ErrorsOfSets(const DiagnosisProblem& problem, const DiagnosedModel& model, const std::vector<PricedEffect>& effects,
+               std::span<const std::size_t> poses)
+      : data_(problem.data),
+        poses_(poses),
+        models_(problem, model, effects),
+        held_(of(models_.held())),
+        own_mm2_(mean(squared_errors(data_, poses_, model.robot))) {}
+
+  double rms_of_model_mm() const { return std::sqrt(own_mm2_); }
+  double rms_mm(const std::vector<std::size_t>& set) const {
+    return std::sqrt(std::max(own_mm2_ + mean(of(set)) - mean(held_), 0.0));
+  }
+  SquaredErrors_mm2 of(const std::vector<std::size_t>& set) const {
+    return squared_errors(data_, poses_, models_.with(set).robot);
+  }
+  const SquaredErrors_mm2& of_held() const { return held_; }
+  std::vector<std::size_t> held_without(const ErrorCause& cause) const {
+    std::vector<std::size_t> others = models_.held();
+    std::erase_if(others, [&](std::size_t effect) { return std::ranges::binary_search(cause.effects, effect); });
+    return others;
+  }
+
+ private:
+  const DataSet& data_;
+  std::span<const std::size_t> poses_;
+  SetModels models_;
+  SquaredErrors_mm2 held_;
+  double own_mm2_;
+};
+
+/// The model without the cause that it misses least stands for as many causes where nothing else does that errs less:
+/// the search goes by the fitted poses and may not have come by it. `last`: of the accept poses after the last fit.
+void offer_without_one(const ErrorsOfSets& last, ErrorBudget& budget) {
+  const CauseCost& least = budget.causes.back();
+  const auto place = std::ranges::find(budget.front, budget.causes.size() - 1, &FrontPoint::causes);
+  if (place == budget.front.end() || place->chosen || place->validation_rms_mm <= least.without_mm) return;
+  place->validation_rms_mm = least.without_mm;
+  if (place->accept_rms_mm) place->accept_rms_mm = last.rms_mm(last.held_without(least.cause));
+}
+
 }  // namespace
 
 ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
@@ -226,38 +265,35 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
   const std::vector<std::size_t> judging = judging_poses(problem, model.robot);
   if (causes.empty() || judging.empty()) return budget;
   const DiagnosisProblem last_problem{problem.data, problem.declared, {last_fitted.begin(), last_fitted.end()}, {}};
-  const SetModels last_models(last_problem, last, front.effects);
   const std::vector<std::size_t> accept = poses_of(problem.data, PoseSet::accept);
+  const ErrorsOfSets front_errors(problem, model, front.effects, judging);
+  const ErrorsOfSets last_errors(last_problem, last, front.effects, accept);
   budget.front.resize(front.points.size());
   in_pieces(front.points.size(), [&](std::size_t i) {
     const ExplanationFront::Point& at = front.points[i];
     FrontPoint& point = budget.front[i];
-    point = {.causes = at.causes, .validation_rms_mm = at.validation_rms_mm, .chosen = i == front.chosen};
-    const CorrectedRobot robot = point.chosen ? last.robot : last_models.with(at.set).robot;
-    if (!accept.empty()) point.accept_rms_mm = error_figures(robot, problem.data, accept).rms_mm;
+    point = {.causes = at.causes, .chosen = i == front.chosen};
+    point.validation_rms_mm = point.chosen ? front_errors.rms_of_model_mm() : front_errors.rms_mm(at.set);
+    if (!accept.empty())
+      point.accept_rms_mm = point.chosen ? last_errors.rms_of_model_mm() : last_errors.rms_mm(at.set);
   });
-
-  const SetModels models(problem, model, effects_of(model));
-  const auto errors_of = [&](const std::vector<std::size_t>& set) {
-    return squared_errors(problem.data, judging, models.with(set).robot);
-  };
-  const SquaredErrors_mm2 with = errors_of(models.held());
-  const double bare_mm2 = mean(errors_of({}));
+  const ErrorsOfSets errors(problem, model, effects_of(model), judging);
+  const double with_mm = errors.rms_of_model_mm(), bare_mm = errors.rms_mm({});
   const std::uint64_t name = random.name();
   budget.causes.resize(causes.size());
   in_pieces(causes.size(), [&](std::size_t i) {
-    std::vector<std::size_t> others = models.held();
-    std::erase_if(others, [&](std::size_t effect) { return std::ranges::binary_search(causes[i].effects, effect); });
-    const SquaredErrors_mm2 without = errors_of(others);
-    const double without_mm2 = mean(without), with_mm2 = mean(with);
+    const std::vector<std::size_t> others = errors.held_without(causes[i]);
+    const double without_mm = errors.rms_mm(others);
     RandomStream own{name, i};
-    budget.causes[i] = {.cause = causes[i],
-                        .without_mm = std::sqrt(without_mm2),
-                        .with_mm = std::sqrt(with_mm2),
-                        .share = std::clamp((without_mm2 - with_mm2) / bare_mm2, 0.0, 1.0),
-                        .interval_mm = fall_interval(without, with, own)};
+    budget.causes[i] = {
+        .cause = causes[i],
+        .without_mm = without_mm,
+        .with_mm = with_mm,
+        .share = std::clamp((without_mm * without_mm - with_mm * with_mm) / (bare_mm * bare_mm), 0.0, 1.0),
+        .interval_mm = fall_interval(errors.of(others), errors.of_held(), own)};
   });
   std::ranges::stable_sort(budget.causes, std::greater{}, &CauseCost::without_mm);
+  offer_without_one(ErrorsOfSets(last_problem, last, effects_of(last), accept), budget);
   return budget;
 }
 

@@ -19,7 +19,7 @@ namespace demecal::inline explanations {
 /// One cause, and what its loss would cost.
 struct CauseCost {
   ErrorCause cause;
-  double without_mm = 0.0;  ///< rms tool error of the judging poses with its effects left out and all else fitted again
+  double without_mm = 0.0;  ///< rms tool error of the judging poses with its effects left out, else fitted to 1st order
   double with_mm = 0.0;     ///< the same of the whole model
   /// What it alone takes from the mean square, over the mean square without any cause; 0 to 1.
   double share = 0.0;
@@ -75,8 +75,8 @@ struct ErrorBudget {
 };
 
 /// `model` was fitted to problem.fitted; problem.validation judges (where there are none, the fitted poses do), all but
-/// those in gross error (see gross_error_limit). `last` is the same model fitted to `last_fitted`. `front` is that of
-/// the model's effects: its chosen point is the model.
+/// those in gross error (see gross_error_limit), to first order about the model. `last` is the same model fitted to
+/// `last_fitted`. `front` is that of the model's effects: its chosen point is the model.
 ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& model, const ExplanationFront& front,
                          std::span<const std::size_t> last_fitted, const DiagnosedModel& last, RandomStream random);
 

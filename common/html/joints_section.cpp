@@ -16,6 +16,7 @@
 #include "html/markup.hpp"
 #include "html/sections.hpp"
 #include "kinematics/units.hpp"
+#include "report/figures.hpp"
 #include "report/history.hpp"
 #include "report/report.hpp"
 
@@ -139,6 +140,20 @@ std::string formula_line(const JointEntry& joint) {
          folded + "</pre>\n";
 }
 
+/// Where the formula is from.
+std::string origin_line(const JointEntry& joint) {
+  if (joint.origin == "smooth_terms")
+    return "<p class=\"note\">This is a sum of smooth terms that was fitted to the poses; no evolved formula is in the "
+           "model.</p>\n";
+  if (joint.origin == "evolved_and_smooth_terms")
+    return "<p class=\"note\">An evolved formula, with smooth terms added that were fitted to the poses.</p>\n";
+  return joint.origin == "evolved" ? "<p class=\"note\">This formula evolved.</p>\n" : "";
+}
+
+bool holds_what_evolved(const JointEntry& joint) {
+  return joint.kept && joint.origin != "smooth_terms";
+}
+
 /// The joint's error, its correction as plot and formula or why it has none, and the course of its evolution.
 std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
   const std::string note =
@@ -146,13 +161,16 @@ std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
   const std::string curve = plot(joint), evolution = evolution_figure(joint, history);
   const std::string evolved = joint.as_evolved.empty()
                                   ? ""
-                                  : fmt::format("<p class=\"note\">As evolved, {} mrad left: <code>{}</code></p>\n",
+                                  : fmt::format("<p class=\"note\">As evolved{}, {} mrad left: <code>{}</code></p>\n",
+                                                holds_what_evolved(joint) ? "" : " (not in the model)",
                                                 mrad(joint.as_evolved_error_rad), escaped(joint.as_evolved));
   return "<article class=\"joint\">\n" + joint_head(joint) + note +
-         (curve.empty() ? "" : "<div class=\"pair\">\n" + curve + "</div>\n") + formula_line(joint) + evolved +
+         (curve.empty() ? "" : "<div class=\"pair\">\n" + curve + "</div>\n") + formula_line(joint) +
+         origin_line(joint) + evolved +
          (evolution.empty()
               ? ""
-              : "<details><summary class=\"soft\">how it evolved</summary>\n" + evolution + "</details>\n") +
+              : fmt::format("<details><summary class=\"soft\">{}</summary>\n{}</details>\n",
+                            holds_what_evolved(joint) ? "how it evolved" : "how formulas for it evolved", evolution)) +
          "</article>\n";
 }
 
@@ -160,7 +178,9 @@ std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
 
 std::string joints_section(const Report& report, const FitnessHistory& history) {
   std::vector<JointEntry> joints = report.joints;
-  std::string body = joints_table(joints) + function_definitions(report);
+  const std::string origins = origins_sentence(report);
+  std::string body = joints_table(joints) + (origins.empty() ? "" : "<p>" + escaped(origins) + "</p>\n") +
+                     function_definitions(report);
   add_unlisted(history, joints);
   for (const JointEntry& joint : joints) body += joint_card(joint, history);
   if (!history.joints.empty()) {

@@ -64,8 +64,11 @@ std::string causes_table(const Report& report) {
   for (const char* const figure : kCauseFigures) heads += fmt::format("<th>{}</th>", figure);
   return table_panel("causes", heads, rows, report.causes.size()) +
          fmt::format(
-             "<p class=\"note\">By how much the rms error of {} poses rises when a cause is left out and all else is "
-             "fitted again; \"of the error\" is the root of the difference of squares.</p>\n",
+             "<p class=\"note\">By how much the rms error of {} poses, while they were unseen, rises when a cause is "
+             "left "
+             "out and all else is fitted again, to first order; \"of the error\" is the root of the difference of "
+             "squares, "
+             "0 where the error falls.</p>\n",
              judging_set(report));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <ranges>
 #include <set>
 #include <type_traits>
@@ -17,7 +18,7 @@ namespace demecal::inline monitor {
 namespace {
 
 constexpr std::size_t kMostKept = 8;  // runs, and calibrations
-constexpr std::size_t kMostRounds = 1000;
+constexpr std::size_t kMostRounds = 1000, kMostEfforts = 1000;
 constexpr std::size_t kMostCausesKept = 1000;
 constexpr std::size_t kMostWorkers = 4096;
 constexpr std::size_t kMostHappenings = 8;
@@ -80,6 +81,7 @@ void Watched::note(const CalibrationData& data, double now_s) {
   std::erase_if(run.islands, [&](const auto& island) { return !has_island(data, island.first); });
   run.evaluations = 0;
   for (const auto& [key, island] : run.islands) run.evaluations += island.evaluations;
+  note_effort(run, data.run);
 }
 
 void Watched::note(const Progress& progress, double now_s) {
@@ -91,6 +93,16 @@ void Watched::note(const Progress& progress, double now_s) {
   run.evaluations += progress.evaluations - last.evaluations;
   last = progress;
   mark_evaluations(run, now_s);
+  note_effort(run, progress.run);
+}
+
+void Watched::note_effort(const WatchedRun& run, RunId id) {
+  Effort& effort = efforts_[id];
+  const bool of_sets = run.has_data() && run.data.breeds == Breeds::sets;
+  effort = {of_sets ? 0 : run.evaluations, of_sets ? run.evaluations : 0, 0};
+  for (const auto& [key, island] : run.islands) effort.migrants += island.migrants_taken;
+  if (efforts_.size() > kMostEfforts)
+    efforts_.erase(efforts_.begin()->first == id ? std::next(efforts_.begin()) : efforts_.begin());
 }
 
 void Watched::note(const Control& control, double) {
@@ -196,6 +208,23 @@ const WatchedRun* Watched::run() const {
     return run == runs_.end() ? nullptr : &run->second;
   }
   return runs_.empty() ? nullptr : &latest(runs_)->second;
+}
+
+Effort Watched::effort() const {
+  Effort all;
+  const auto add = [&](RunId run) {
+    const auto found = efforts_.find(run);
+    if (found == efforts_.end()) return;
+    all.evaluations += found->second.evaluations;
+    all.sets += found->second.sets;
+    all.migrants += found->second.migrants;
+  };
+  if (const WatchedCalibration* shown = calibration()) {
+    for (const RunId run : shown->runs) add(run);
+  } else if (!runs_.empty()) {
+    add(latest(runs_)->first);
+  }
+  return all;
 }
 
 std::size_t Watched::other_calibrations() const {

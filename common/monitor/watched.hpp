@@ -37,6 +37,12 @@ struct WatchedRun {
   bool has_finished(const Progress& island) const;
 };
 
+/// What evolutions have cost so far.
+struct Effort {
+  std::uint64_t evaluations = 0, sets = 0;  ///< formulas, and sets of effects, that were judged
+  std::uint64_t migrants = 0;               ///< taken from other islands
+};
+
 struct WatchedWorker {
   enum class Presence { here, left, lost };
   std::uint64_t order = 0;
@@ -75,6 +81,8 @@ class Watched {
   const WatchedCalibration* calibration() const;
   /// Its present or last evolution; without any calibration the run seen last. Null where none was seen.
   const WatchedRun* run() const;
+  /// Of all evolutions of the shown calibration that were seen; without one, of the shown run.
+  Effort effort() const;
   /// Calibrations beside the shown one that go on.
   std::size_t other_calibrations() const;
   /// Workers that are here, or that have to do with the shown run: bred an island of it, or were lost since it began.
@@ -96,12 +104,14 @@ class Watched {
   void note(const CauseFound& cause, double now_s);
   void note(const FinalFigures& figures, double now_s);
   void note(const CalibrationLost& lost, double now_s);
+  void note_effort(const WatchedRun& run, RunId id);
   WatchedRun& run_of(RunId run, double now_s);
   WatchedCalibration& calibration_of(std::uint64_t calibration, double now_s);
   void add_notice(double now_s, std::string text);
 
   std::uint64_t order_ = 0;
   std::map<RunId, WatchedRun> runs_;
+  std::map<RunId, Effort> efforts_;  ///< of more runs than those
   std::map<std::uint64_t, WatchedCalibration> calibrations_;
   std::map<std::string, WatchedWorker> workers_;
   std::deque<Notice> notices_;

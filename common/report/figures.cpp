@@ -36,6 +36,11 @@ std::optional<double> largest_error(const EffectEntry& effect) {
   return largest;
 }
 
+/// "none is a formula", "1 is a formula", "2 are formulas".
+std::string in_number(std::ptrdiff_t count, const char* one, const char* several) {
+  return fmt::format("{} {}", count == 0 ? "none" : std::to_string(count), count < 2 ? one : several);
+}
+
 /// Settings that tell effects of one kind and joint apart.
 constexpr std::array<const char*, 3> kTelling{"ratio", "order", "from"};
 
@@ -166,6 +171,37 @@ std::string EffectEntry::name() const {
 
 std::string EffectEntry::size() const {
   return amplitude ? amount(*amplitude, unit) : "";
+}
+
+std::string origins_sentence(const Report& report) {
+  const auto of_origin = [&](const char* origin) {
+    return std::ranges::count(report.joints, origin, &JointEntry::origin);
+  };
+  const auto kept = std::ranges::count_if(report.joints, &JointEntry::kept);
+  const auto evolved = of_origin("evolved"), both = of_origin("evolved_and_smooth_terms"),
+             sums = of_origin("smooth_terms");
+  const bool any_evolved =
+      std::ranges::any_of(report.joints, [](const JointEntry& joint) { return !joint.as_evolved.empty(); });
+  if (!any_evolved && !report.distal) return {};
+  std::string text;
+  if (kept > 0 && evolved + both + sums == kept) {
+    text = fmt::format("Of the {} correction{} in the model ", kept, kept == 1 ? "" : "s") +
+           in_number(evolved, "is a formula as it evolved", "are formulas as they evolved");
+    if (both > 0)
+      text += "; " + in_number(both, "is an evolved formula with smooth terms added",
+                               "are evolved formulas with smooth terms added");
+    if (sums > 0)
+      text += "; " + in_number(sums, "is a sum of smooth terms, fitted to the poses, in the place of an evolved one",
+                               "are sums of smooth terms, fitted to the poses, in the place of evolved ones");
+    text += ".";
+  }
+  const auto& [calibration, validation, accept] = report.as_evolved;
+  const std::optional<double>& all = accept.mean_mm ? accept.mean_mm : validation.mean_mm;
+  if (!any_evolved || !all) return text;
+  return text + fmt::format(
+                    "{}With all as they evolved the mean error of {} poses would be {:.3f} mm. fronts.csv has "
+                    "the evolved formulas to choose from.",
+                    text.empty() ? "" : " ", accept.mean_mm ? "accept" : "validation", *all);
 }
 
 bool Report::added_any() const {

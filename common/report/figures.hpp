@@ -113,4 +113,8 @@ std::string outliers_sentence(const Report& report);
 /// What the loop's tests of the whole model say, in up to three sentences; empty where nothing is known.
 std::string statistics_sentences(const Report& report);
 
+/// Which of the corrections are formulas as they evolved and which are sums of smooth terms in their place, and what
+/// the evolved ones would leave; empty where nothing evolved or a report does not say where its corrections are from.
+std::string origins_sentence(const Report& report);
+
 }  // namespace demecal::inline report

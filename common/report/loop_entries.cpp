@@ -161,40 +161,16 @@ void name_as_known(const ErrorBudget& budget, const CorrectedRobot& robot, std::
 
 }  // namespace
 
-std::string cause_name(const CauseEntry& cause) {
-  std::string name = cause.name;
-  for (const std::string& alternative : cause.alternatives) name += " or " + alternative;
-  return cause.alternatives.empty() ? name : name + " (these poses cannot tell)";
-}
-
-std::string cost_sentence(const CauseEntry& cause) {
-  std::string text = fmt::format("{}: {:.3f} mm of the error", cause_name(cause), cause.cost_mm());
-  if (cause.interval_mm.size() == 2)
-    text += fmt::format(" (95 %: {:.3f} to {:.3f})", cause.interval_mm[0], cause.interval_mm[1]);
-  return text;
-}
-
-std::string_view judging_set(const Report& report) {
-  return report.poses.validation > 0 ? "validation" : "calibration";
-}
-
-std::string front_sentence(const Report& report) {
-  constexpr std::uint64_t kFew = 10;
-  const auto chosen = std::ranges::find(report.front, true, &FrontEntry::chosen);
-  if (report.front.size() < 3 || chosen == report.front.end() || !chosen->validation_rms_mm) return {};
-  std::string fewer, more;
-  for (const FrontEntry& point : report.front) {
-    if (point.chosen || !point.validation_rms_mm) continue;
-    if (point.causes > chosen->causes) {
-      more += fmt::format("{}{} {:.3f}", more.empty() ? "; with more: the best " : ", ", point.causes,
-                          *point.validation_rms_mm);
-    } else if (point.causes <= kFew) {
-      const std::string causes = point.causes == 0 ? "none" : "the best " + std::to_string(point.causes);
-      fewer += fmt::format("{}{} {:.3f}", fewer.empty() ? "; with fewer: " : ", ", causes, *point.validation_rms_mm);
-    }
-  }
-  return fmt::format("Left on {} poses (rms, mm) with the model's {} causes {:.3f}{}{}.", judging_set(report),
-                     chosen->causes, *chosen->validation_rms_mm, fewer, more);
+std::string EffectEntry::full_name() const {
+  std::vector<std::string> settings;
+  for (const auto& [setting, value] : parameters)
+    if (value && *value != 0.0)
+      settings.push_back(setting == "gravity_turn" ? fmt::format("{}_{:g}", setting, *value) : setting);
+  const std::string masses = masses_words(settings);
+  if (masses.empty()) return name();
+  const std::string which = distinction();
+  return kind + " (" + which + (which.empty() ? "" : " ") + masses + ")" +
+         (joint ? fmt::format(", joint {}", *joint) : "");
 }
 
 EffectEntry effect_entry(const Effect& effect, const Robot& robot) {

@@ -195,6 +195,58 @@ std::string decoys_sentence(const std::vector<DecoyEntry>& decoys) {
   return fmt::format("none of {} decoys won; the best was {}", decoys.size(), best.name);
 }
 
+std::string cause_name(const CauseEntry& cause) {
+  std::string name = cause.name;
+  for (const std::string& alternative : cause.alternatives) name += " or " + alternative;
+  return cause.alternatives.empty() ? name : name + " (these poses cannot tell)";
+}
+
+std::string cost_sentence(const CauseEntry& cause) {
+  std::string text = cause_name(cause);
+  const bool harms = cause.without_mm && cause.with_mm && *cause.without_mm <= *cause.with_mm;
+  if (harms) {
+    text += fmt::format(": none of the error on these poses, {:.3f} mm without it and {:.3f} mm with it",
+                        *cause.without_mm, *cause.with_mm);
+  } else {
+    text += fmt::format(": {:.3f} mm of the error", cause.cost_mm());
+  }
+  if (cause.interval_mm.size() == 2)
+    text += harms ? fmt::format(" (95 %: up to {:.3f} mm of it)", cause.interval_mm[1])
+                  : fmt::format(" (95 %: {:.3f} to {:.3f})", cause.interval_mm[0], cause.interval_mm[1]);
+  return text;
+}
+
+std::string_view judging_set(const Report& report) {
+  return report.poses.validation > 0 ? "validation" : "calibration";
+}
+
+std::string front_sentence(const Report& report) {
+  constexpr std::uint64_t kFew = 10;
+  const auto chosen = std::ranges::find(report.front, true, &FrontEntry::chosen);
+  if (report.front.size() < 3 || chosen == report.front.end() || !chosen->validation_rms_mm) return {};
+  std::string fewer, more;
+  for (const FrontEntry& point : report.front) {
+    if (point.chosen || !point.validation_rms_mm) continue;
+    if (point.causes > chosen->causes) {
+      more += fmt::format("{}{} {:.3f}", more.empty() ? "; with more: the best " : ", ", point.causes,
+                          *point.validation_rms_mm);
+    } else if (point.causes <= kFew) {
+      const std::string causes = point.causes == 0 ? "none" : "the best " + std::to_string(point.causes);
+      fewer += fmt::format("{}{} {:.3f}", fewer.empty() ? "; with fewer (to first order): " : ", ", causes,
+                           *point.validation_rms_mm);
+    }
+  }
+  const bool errs_more = std::ranges::any_of(report.front, [&](const FrontEntry& point) {
+    return point.causes < chosen->causes && point.validation_rms_mm < chosen->validation_rms_mm;
+  });
+  return fmt::format("Left on {} poses (rms, mm) with the model's {} cause{} {:.3f}{}{}.{}", judging_set(report),
+                     chosen->causes, chosen->causes == 1 ? "" : "s", *chosen->validation_rms_mm, fewer, more,
+                     errs_more
+                         ? " That fewer leave less here is no reason to leave one out: the calibration poses show "
+                           "each, and so small a difference on these is chance as often as not."
+                         : "");
+}
+
 std::string outliers_sentence(const Report& report) {
   std::string text;
   for (const ReportPoseSet& set : kPoseSets) {

@@ -100,6 +100,7 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
                    .discontinuities_rad = summary.discontinuities_rad,
                    .with_functions = {},
                    .note = summary.note,
+                   .origin = {},
                    .short_form = {},
                    .as_evolved = {},
                    .as_evolved_error_rad = {}};
@@ -107,6 +108,12 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
   const FoldedFormula calling = folded_correction(correction, model.functions);
   if (!calling.calls.empty()) entry.with_functions = to_string(calling);
   return entry;
+}
+
+/// `joints`: as they were calibrated, for a model file does not say where its formulas are from.
+void add_origins(const std::vector<JointSummary>& joints, std::vector<JointEntry>& entries) {
+  for (std::size_t joint = 0; joint < std::min(joints.size(), entries.size()); ++joint)
+    if (entries[joint].kept) entries[joint].origin = to_string(joints[joint].origin);
 }
 
 /// What joints evolved beside what they kept, where each learnt from its own targets: the corrections of distal
@@ -247,6 +254,7 @@ Report make_report(const Conclusions& run) {
                                   if_finite(run.calibration.index_after_mm2)};
   if (has_joints(model))
     for (const JointSummary& summary : model.joints) report.joints.push_back(joint_entry(summary, model));
+  add_origins(run.calibration.joints, report.joints);
   add_as_evolved(run, report);
   add_short_forms(run, report.joints);
   report.shared_functions = function_entries(model);

@@ -194,11 +194,12 @@ struct JointEntry {
   BeforeAfter mean_abs_error_rad;
   std::optional<Interval> range_rad;
   std::optional<double> bound_rad;
-  std::vector<double> discontinuities_rad;     ///< ascending
-  std::string with_functions;                  ///< the expression with calls of functions that joints share
-  std::string note;                            ///< why it is not corrected
-  std::string short_form;                      ///< "0.31 mrad sin(q2 + 14 deg)", where such a formula does as well
-  std::string as_evolved;                      ///< what fits the joint's targets best; empty where nothing evolved
+  std::vector<double> discontinuities_rad;  ///< ascending
+  std::string with_functions;               ///< the expression with calls of functions that joints share
+  std::string note;                         ///< why it is not corrected
+  std::string origin;                       ///< "evolved", "smooth_terms", "evolved_and_smooth_terms"; empty: not known
+  std::string short_form;                   ///< "0.31 mrad sin(q2 + 14 deg)", where such a formula does as well
+  std::string as_evolved;                   ///< what fits the joint's targets best; empty where nothing evolved
   std::optional<double> as_evolved_error_rad;  ///< mean absolute, that it leaves of them
 };
 

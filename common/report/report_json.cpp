@@ -145,6 +145,7 @@ void fields(Visit& visit, Like<JointEntry> auto& joint) {
         joint.discontinuities_rad);
   visit.when(!joint.with_functions.empty(), "with_functions", joint.with_functions);
   visit.when(!joint.note.empty(), "note", joint.note);
+  visit.when(!joint.origin.empty(), "origin", joint.origin);
   visit.when(!joint.short_form.empty(), "short_form", joint.short_form);
   visit.when(!joint.as_evolved.empty(), "as_evolved", joint.as_evolved);
   visit.when(!joint.as_evolved.empty(), "as_evolved_error_rad", joint.as_evolved_error_rad);

@@ -188,7 +188,8 @@ std::string unexplained_lines(const Report& report) {
 /// What it comes to, for who asks what to do about it.
 std::string causes_lines(const Report& report) {
   if (report.causes.empty()) return unexplained_lines(report) + (report.unexplained ? "\n" : "");
-  std::string text = fmt::format("  causes, by the rise of the error on {} poses without each\n", judging_set(report));
+  std::string text = fmt::format("  causes, by the rise of the error on {} poses without each (to first order)\n",
+                                 judging_set(report));
   for (std::size_t i = 0; i < report.causes.size(); ++i) {
     const std::string number = fmt::format("{:>5}.", i + 1);
     const std::string& advice = report.causes[i].advice;

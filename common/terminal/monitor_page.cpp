@@ -95,15 +95,15 @@ std::string Page::time_left() const {
   return left && *left > 0.0 ? "about " + short_time(*left) + " left" : "";
 }
 
-/// How far the run is: a bar over the whole width, and what the islands did together.
+/// How far the run is: a bar over the whole width, and what the islands of all evolutions did together.
 Lines Page::progress() const {
   if (run_ == nullptr || !run_->has_data()) return {};
-  double taken = 0.0;
-  for (const auto& [key, island] : run_->islands) taken += static_cast<double>(island.migrants_taken);
-  std::string counts = short_count(static_cast<double>(run_->evaluations)) + " evaluations";
+  const auto [evaluations, sets, migrants] = watched_.effort();
+  std::string counts = short_count(static_cast<double>(evaluations)) + " evaluations";
+  if (sets > 0) counts += ", " + short_count(static_cast<double>(sets)) + " sets of effects";
   const double speed = is_evolving() ? evaluations_per_s(watched_, *run_, options_.now_s) : 0.0;
   if (speed > 0.0) counts += ", " + short_count(speed) + "/s";
-  counts += ", " + short_count(taken) + " migrants taken";
+  counts += ", " + short_count(static_cast<double>(migrants)) + " migrants taken";
   return {progress_bar(watched_, columns_, options_.colours), both_ends(counts, time_left(), columns_)};
 }
 

@@ -182,8 +182,9 @@ std::vector<std::string> round_lines(const WatchedCalibration* calibration, cons
 std::vector<std::string> cause_lines(const WatchedCalibration* calibration, const TableOptions& options) {
   if (calibration == nullptr || calibration->causes.empty()) return {};
   const std::size_t count = calibration->causes.size();
-  const std::string heading = fmt::format(
-      "{} cause{} of error; rms error on validation poses without it -> with it, mm", count, count == 1 ? "" : "s");
+  const std::string heading =
+      fmt::format("{} cause{} of error; rms error on validation poses while unseen, without it -> with it, mm", count,
+                  count == 1 ? "" : "s");
   TableLines lines = faint_lines(heading, options);
   std::size_t shown = 0;
   for (const auto& [number, cause] : calibration->causes) {

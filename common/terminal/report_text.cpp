@@ -139,19 +139,10 @@ std::string correction_words(const JointEntry& joint) {
   return joint.short_form.empty() ? "corrected by a formula too long to show: see model.yaml" : joint.short_form;
 }
 
-/// What came of evolution before the choice.
-std::string as_evolved(const Report& report) {
-  const auto& [calibration, validation, accept] = report.as_evolved;
-  const std::optional<double>& all = accept.mean_mm ? accept.mean_mm : validation.mean_mm;
-  const auto kept = std::ranges::count_if(report.joints, &JointEntry::kept);
-  const auto evolved =
-      std::ranges::count_if(report.joints, [](const JointEntry& joint) { return !joint.as_evolved.empty(); });
-  if (!all || evolved == 0) return {};
-  return wrapped(" ",
-                 fmt::format("{} of {} evolved corrections are kept; with all as they evolved the mean error of {} "
-                             "poses would be {:.3f} mm. fronts.csv has the formulas to choose from.",
-                             kept, evolved, accept.mean_mm ? "accept" : "validation", *all),
-                 2);
+/// What came of evolution.
+std::string origins(const Report& report) {
+  const std::string sentence = origins_sentence(report);
+  return sentence.empty() ? "" : wrapped(" ", sentence, 2);
 }
 
 /// Where joints had no targets, as beside an old model: how far they are corrected.
@@ -169,7 +160,7 @@ std::string joints(const Report& report) {
   const bool told = std::ranges::any_of(report.joints, [](const JointEntry& joint) {
     return joint.mean_abs_error_rad.before || joint.mean_abs_error_rad.after;
   });
-  if (!told) return corrections_alone(report) + as_evolved(report);
+  if (!told) return corrections_alone(report) + origins(report);
   std::string text =
       fmt::format("  {:<8}{:>16}{:>16}   {}\n", "joint", "error before", "error after", "mean absolute, rad");
   const auto rad = [](const std::optional<double>& error) { return error ? fmt::format("{:.3e}", *error) : "–"; };
@@ -179,7 +170,7 @@ std::string joints(const Report& report) {
                                 right_aligned(rad(joint.mean_abs_error_rad.after), 16) + "  ";
     text += wrapped(figures, joint.kept ? correction_words(joint) : "neutral: " + joint.note, figures.size() + 1);
   }
-  return text + as_evolved(report);
+  return text + origins(report);
 }
 
 /// The functions, and the corrections that call them.

@@ -67,6 +67,25 @@ TEST(Closing, SummarisesTheJointsOfTheLoopsModel) {
   for (const JointSummary& joint : calibration.joints) EXPECT_EQ(joint.kept, joint.note.empty());
 }
 
+TEST(Closing, TellsSumsOfSmoothTermsFromFormulasThatEvolved) {
+  const DataSet data = lacking_arm(6e-4, 3);
+  const Job job = looping_job();
+  const Preparation preparation = prepare(data, job);
+  DiagnosedModel model = looped(data, job, preparation).model;
+  Calibration calibration = calibration_of(data, job.declared, preparation, model);
+  ASSERT_TRUE(calibration.joints[0].kept);
+  EXPECT_EQ(calibration.joints[0].origin, FormulaOrigin::smooth_terms);
+  model.smooth.base[0] = {parse("0.0008*SIN(theta)"), {}, {-1.3, 1.3}};
+  EXPECT_EQ(calibration_of(data, job.declared, preparation, model).joints[0].origin, FormulaOrigin::unstated);
+  std::vector<JointSummary> start = calibration.joints;
+  start[0].origin = FormulaOrigin::evolved;
+  set_origins(model, start, calibration);
+  EXPECT_EQ(calibration.joints[0].origin, FormulaOrigin::evolved_and_smooth_terms);
+  model.smooth.coefficients.setZero();
+  set_origins(model, start, calibration);
+  EXPECT_EQ(calibration.joints[0].origin, FormulaOrigin::evolved);
+}
+
 TEST(Closing, TidyMovesNothingThatCouldBeMeasured) {
   const DataSet data = lacking_arm(6e-4, 4);
   const Job job = looping_job();

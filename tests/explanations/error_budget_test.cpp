@@ -248,6 +248,19 @@ TEST_F(TwoCauses, FrontGoesFromNoneToAllAndEveryCauseHelps) {
   EXPECT_NEAR(*budget.front.back().accept_rms_mm, present_mm, 1e-3);
 }
 
+TEST_F(TwoCauses, TheModelErrsTheSameWhereverItStandsAndOfFewerCausesTheBestKnownIsTold) {
+  ExplanationFront front = pruned_front(*problem_, model_);
+  ASSERT_EQ(front.points.size(), 3U);
+  front.points[1].set = {1 - front.points[1].set.at(0)};  // as if the search had come by the worse one alone
+  const ErrorBudget budget = error_budget(*problem_, model_, front, problem_->fitted, model_, RandomStream{1, 2});
+  const double own_mm = error_figures(model_.robot, *data_, problem_->validation).rms_mm;
+  EXPECT_NEAR(budget.front[2].validation_rms_mm, own_mm, 1e-9);
+  for (const CauseCost& cost : budget.causes) EXPECT_NEAR(cost.with_mm, own_mm, 1e-9);
+  EXPECT_NEAR(budget.front[1].validation_rms_mm, budget.causes[1].without_mm, 1e-9);
+  const double accept_mm = *budget.front[1].accept_rms_mm;
+  EXPECT_NEAR(accept_mm, *budgeted().front[1].accept_rms_mm, 1e-9);
+}
+
 TEST_F(TwoCauses, OneGrossErrorChangesNoCost) {
   const ErrorBudget before = budgeted();
   DataSet spoilt = *data_;

@@ -154,6 +154,9 @@ TEST(ReportPage, ShowsEveryFormulaNoteNameAndFact) {
     EXPECT_THAT(words, HasSubstr(joint.short_form));
     EXPECT_THAT(words, HasSubstr(joint.as_evolved));
   }
+  EXPECT_THAT(words, HasSubstr("Of the 4 corrections in the model 1 is a formula as it evolved;"));
+  EXPECT_THAT(words, HasSubstr("This is a sum of smooth terms that was fitted to the poses"));
+  EXPECT_THAT(words, HasSubstr("As evolved (not in the model), 0.310 mrad left:"));
   for (const std::string& sentence : report.unidentified) EXPECT_THAT(words, HasSubstr(sentence));
   for (const std::string& pose : report.poses.outliers) EXPECT_THAT(words, HasSubstr(pose));
   for (const std::string& pose : report.poses.near_singular) EXPECT_THAT(words, HasSubstr(pose));

@@ -53,6 +53,31 @@ TEST(Watched, ComesToTheSameFiguresInWhateverOrderTopicsArrive) {
   }
 }
 
+TEST(Watched, CountsWhatAllEvolutionsOfACalibrationCost) {
+  Watched watched;
+  constexpr RunId kRuns = 20;  // more than are kept
+  for (RunId run = 1; run <= kRuns; ++run) {
+    LoopNews stage = made_up_stage(LoopNews::Stage::evolving, "evolving");
+    stage.run = run;
+    CalibrationData data = made_up_data();
+    data.run = run;
+    data.breeds = run == 2 ? Breeds::sets : Breeds::formulas;
+    watched.take(stage, 0.0);
+    watched.take(data, 0.0);
+    Progress progress = after(2);
+    progress.run = run;
+    for (const std::uint64_t evaluations : {50U, 100U}) {
+      progress.evaluations = evaluations;
+      progress.migrants_taken = 3;
+      ++progress.epoch;
+      watched.take(progress, 0.0);
+    }
+  }
+  EXPECT_EQ(watched.effort().evaluations, 100 * (kRuns - 1));
+  EXPECT_EQ(watched.effort().sets, 100U);
+  EXPECT_EQ(watched.effort().migrants, 3 * kRuns);
+}
+
 TEST(Watched, KeepsTheFiguresOfTheLatestEpoch) {
   const Watched watched = watched_after({made_up_data(), after(3, "one"), after(2, "two"), after(3, "two")});
   EXPECT_EQ(watched.run()->islands.at({0, 0}).epoch, 3u);

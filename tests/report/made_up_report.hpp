@@ -118,6 +118,9 @@ inline Report made_up_report() {
   report.fitted_sets = {"calibration"};
   report.performance_index_mm2 = {81.27, 39.91};
   report.joints = made_up_joints();
+  report.joints[0].origin = "evolved";
+  report.joints[1].origin = "evolved_and_smooth_terms";
+  report.joints[2].origin = report.joints[4].origin = "smooth_terms";
   report.joints[2].short_form = "0.61 mrad sin(q3 + 80 deg)";
   for (JointEntry& joint : report.joints) {
     joint.as_evolved = "0.0003 * SIN(theta)";

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "expression/text.hpp"
 #include "fitting/known_arm.hpp"
 #include "prediction/measurement.hpp"
 #include "random/random_stream.hpp"
@@ -63,6 +64,19 @@ struct PerfectRun {
         {arm.data, model, arm.truth, loop, preparation, calibration, check, candidates, distal, structure, facts});
   }
 };
+
+TEST(Corrections, AreSaidToBeFromWhereTheCalibrationHasThemFrom) {
+  PerfectRun run;
+  run.model.robot.corrections[0] = {parse("0.001 * SIN(theta)"), {}, {-1.0, 1.0}};
+  run.model.joints = {{.joint = 0, .kept = true, .note = {}}, {.joint = 1, .kept = false, .note = {}}};
+  run.model.method = Method::direct;
+  run.calibration.joints = run.model.joints;
+  run.calibration.joints[0].origin = FormulaOrigin::smooth_terms;
+  const Report report = run.report();
+  ASSERT_EQ(report.joints.size(), 2U);
+  EXPECT_EQ(report.joints[0].origin, "smooth_terms");
+  EXPECT_EQ(report.joints[1].origin, "");
+}
 
 TEST(Outliers, AreNamedInEverySetAndErrorsAreToldWithAndWithoutThem) {
   PerfectRun run;

@@ -116,10 +116,8 @@ TEST(LoopTerminal, SaysWhatTheCausesCostBeforeItSaysWhatWasAdded) {
   ASSERT_NE(dearest, std::string::npos) << text;
   EXPECT_LT(dearest, text.find("2. gears of joint 1: "));
   EXPECT_LT(text.find("2. gears of joint 1: "), text.find("effect added"));
-  EXPECT_THAT(
-      text,
-      HasSubstr(
-          "Left on validation poses (rms, mm) with the model's 4 causes 0.311; with fewer: none 0.620, the best 1 "));
+  EXPECT_THAT(text, HasSubstr("Left on validation poses (rms, mm) with the model's 4 causes 0.311; with fewer (to "
+                              "first order): none 0.620, the best 1 "));
   EXPECT_THAT(text, HasSubstr("Approach targets from the side they were measured from"));
 }
 

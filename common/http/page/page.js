@@ -1,7 +1,7 @@
 // The live page: takes events as the server tells them, and shows the present or, by the slider, any moment before it.
 import {ArmView} from './arm.js';
 import {drawLines, duration, inkOf, short} from './charts.js';
-import {emptyState, isLive, shownCalibration, shownRun, take} from './state.js';
+import {effort, emptyState, isLive, shownCalibration, shownRun, take} from './state.js';
 
 const kPause_ms = 250;   // between two drawings
 const kPlay_s = 30;      // in which the whole of what was seen is played
@@ -70,7 +70,9 @@ function drawHead(calibration, run) {
   $('done').parentElement.setAttribute('aria-valuenow', String(done));
   const parts = [];
   if (figures) {
-    parts.push(`${done} % of ${run.data?.generations ?? '?'} generations`, `${short(figures.evaluations)} evaluations`);
+    const all = effort(state, calibration, run);
+    parts.push(`${done} % of ${run.data?.generations ?? '?'} generations`, `${short(all.evaluations)} evaluations`);
+    if (all.sets > 0) parts.push(`${short(all.sets)} sets of effects`);
     if (figures.evaluations_per_s > 0) parts.push(`${short(figures.evaluations_per_s)}/s`);
     if (figures.time_left_s > 0 && calibration !== null && isLive(calibration)) parts.push(`about ${duration(figures.time_left_s)} left`);
   }
@@ -126,7 +128,7 @@ function islandElement(grid, key) {
   return made;
 }
 
-function drawIslands(run) {
+function drawIslands(calibration, run) {
   const grid = $('islands'), joints = run?.data?.joints ?? [], columns = run?.data?.islands_per_joint ?? 0;
   const shape = `${run?.id}:${joints}:${columns}`;
   if (grid.dataset.shape !== shape) {
@@ -141,7 +143,6 @@ function drawIslands(run) {
       for (let island = 1; island <= columns; ++island) islandElement(grid, `${joint}/${island}`);
     }
   }
-  let taken = 0;
   for (const element of grid.querySelectorAll('[data-key]')) {
     const island = run.islands.get(element.dataset.key), worker = island && state.workers.get(island.worker);
     const orphan = worker !== undefined && worker?.presence === 'lost' && island.generation < run.data.generations;
@@ -150,9 +151,8 @@ function drawIslands(run) {
     text(element.children[1], island ? tagOf(island.worker) : '');
     element.children[2].style.width = `${island ? 100 * island.generation / run.data.generations : 0}%`;
     element.title = island ? `generation ${island.generation}, ${island.migrants_taken} migrants taken, ${island.migrants_sent} sent, ${Math.round(100 * island.diversity)} % differ, ${island.worker}` : 'not begun';
-    taken += island?.migrants_taken ?? 0;
   }
-  text($('islandnote'), run === null ? 'no evolution yet' : `best fitness, who breeds it, generations; framed: has just taken in migrants (${short(taken)} in all)`);
+  text($('islandnote'), run === null ? 'no evolution yet' : `best fitness, who breeds it, generations; framed: has just taken in migrants (${short(effort(state, calibration, run).migrants)} in all)`);
 }
 
 /// Constants with as many digits as a person compares.
@@ -160,8 +160,8 @@ const rounded = formula => (formula ?? '').replace(/\d+\.\d{4,}(e[+-]?\d+)?/g, n
 
 function drawTables(calibration, run) {
   const best = [...(run?.best.values() ?? [])].sort((a, b) => a.joint - b.joint), ofSets = run?.data?.breeds === 'sets';
-  text($('besttitle'), ofSets ? 'Best explanation' : 'Best formulas');
-  text($('bestnote'), ofSets ? 'fitness: exp(description length / measured numbers), 1 without any cause; length: effects' : 'theta in rad; constants rounded');
+  text($('besttitle'), ofSets ? 'Best explanation' : 'Best evolved formulas');
+  text($('bestnote'), ofSets ? 'fitness: exp(description length / measured numbers), 1 without any cause; length: effects' : 'of the evolution that runs or ran last; theta in rad; constants rounded. The model may hold sums of smooth terms, fitted to the poses, in their place: report.html says which');
   text($('besthead'), ofSets ? 'causes' : 'formula');
   text($('frontnote'), `best fitness that ${ofSets ? 'sets of so many effects' : 'formulas of each length'} reached`);
   rows($('formulas'), best, e => [ofSets ? 'all' : String(e.joint), short(e.best_fitness), String(e.best_length), rounded(e.best_formula) || '–']);
@@ -174,7 +174,7 @@ function drawTables(calibration, run) {
        worker => [`${tagOf(worker.worker)} ${worker.host} (${worker.process})`, String(worker.slots), String(count(worker.worker)),
                   `${Math.round(100 * worker.waited_share)} %`, worker.presence === 'here' ? '' : worker.presence]);
   const rounds = [...(calibration?.rounds.values() ?? [])].sort((a, b) => a.round - b.round);
-  const mark = `${calibration?.id}:${rounds.length}`;
+  const mark = `${calibration?.id}:${calibration?.told}`;
   if ($('rounds').dataset.mark !== mark) {
     $('rounds').dataset.mark = mark;
     $('rounds').replaceChildren(...rounds.map(roundElement));
@@ -200,7 +200,7 @@ function drawTables(calibration, run) {
 function finalNote(last) {
   const told = ['validation', 'accept'].filter(set => last[`${set}_after_mm`] !== null)
     .map(set => `rms error on ${set} poses ${short(last[`${set}_before_mm`])} → ${short(last[`${set}_after_mm`])} mm`);
-  return (told.join('; ') || 'no poses judge the model') + (last.causes > 0 ? '; and on validation poses without each cause → with it:' : '');
+  return (told.join('; ') || 'no poses judge the model') + (last.causes > 0 ? `; and on ${last.validation_after_mm === null ? 'calibration poses' : 'validation poses while they were unseen'}, without each cause → with it:` : '');
 }
 
 function causeElement(cause) {
@@ -240,7 +240,7 @@ function draw() {
   drawHead(calibration, run);
   drawArm();
   drawError(run);
-  drawIslands(run);
+  drawIslands(calibration, run);
   drawTables(calibration, run);
   text($('shown'), duration(live ? end_s() : shown_s()));
   if (live) $('time').value = 1000;

@@ -12,7 +12,7 @@ function runOf(state, id) {
 }
 
 function calibrationOf(state, id) {
-  if (!state.calibrations.has(id)) state.calibrations.set(id, {id, job: '', stage: '', text: '', run: '', lost: false, rounds: new Map(), causes: new Map(), finalFigures: null});
+  if (!state.calibrations.has(id)) state.calibrations.set(id, {id, job: '', stage: '', text: '', run: '', runs: new Set(), told: 0, lost: false, rounds: new Map(), causes: new Map(), finalFigures: null});
   return state.calibrations.get(id);
 }
 
@@ -37,6 +37,17 @@ export function shownRun(state) {
   return calibration === null ? [...state.runs.values()].at(-1) ?? null : null;
 }
 
+/// Of all evolutions of the calibration that were seen; without one, of the run.
+export function effort(state, calibration, run) {
+  const all = {evaluations: 0, sets: 0, migrants: 0};
+  const runs = calibration === null ? [run] : [...calibration.runs].map(id => state.runs.get(id));
+  for (const one of runs) for (const island of one?.islands.values() ?? []) {
+    all[one.data?.breeds === 'sets' ? 'sets' : 'evaluations'] += island.evaluations;
+    all.migrants += island.migrants_taken;
+  }
+  return all;
+}
+
 function takeProgress(state, e) {
   const run = runOf(state, e.run), key = e.joint + '/' + e.island, before = run.islands.get(key);
   if (before !== undefined && e.epoch < before.epoch) return;
@@ -58,6 +69,7 @@ function takeProgress(state, e) {
 function takeStage(state, e) {
   const calibration = calibrationOf(state, e.calibration);
   if (calibration.stage !== e.stage || calibration.text !== e.text) notice(state, e, `${e.job}: ${e.text || e.stage}`);
+  if (e.run) calibration.runs.add(e.run);
   Object.assign(calibration, {job: e.job, stage: e.stage, text: e.text, run: e.run || calibration.run, lost: false});
 }
 
@@ -83,6 +95,7 @@ const kTakers = {
     if (!calibration.rounds.has(e.round) && e.verdict === 'added') notice(state, e, `found: ${e.label}`);
     calibration.job ||= e.job;
     calibration.rounds.set(e.round, e);
+    ++calibration.told;
   },
   cause: (state, e) => { calibrationOf(state, e.calibration).causes.set(e.number, e); },
   final_figures: (state, e) => {
