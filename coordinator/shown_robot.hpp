@@ -14,7 +14,7 @@ struct ShownRobot {
   const Robot& robot;
   const LinkInertias& inertias;
   JointVector joints;                 ///< where it stands
-  std::vector<std::string> warnings;  ///< of these joints
+  std::vector<std::string> warnings;  ///< of these joints, and of units in the file
 };
 
 /// "joint 2 at 170 deg is beyond its limits, ...": of every joint that is.

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "parameters/declared_model.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "trials/finding.hpp"
@@ -32,6 +33,10 @@ void check_fitted(const DataSet& data, const CorrectedRobot& robot, DataCheck& c
 /// do not say how sure they are.
 void check_fitted(const DataSet& data, const CorrectedRobot& robot, const std::optional<Posterior>& posterior,
                   const std::optional<PredictionInterval>& interval, DataCheck& check);
+
+/// Adds a contradiction where `declared` holds no registration, and the measured points stand where the arm does in
+/// another frame only, further from its base than any arm errs.
+void check_declared(const DataSet& data, const DeclaredModel& declared, DataCheck& check);
 
 /// Throws InputError where a joint stands far outside its limits in a pose that no finding names.
 void require_joint_limits(const DataSet& data, const DataCheck& check);

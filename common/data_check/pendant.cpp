@@ -281,6 +281,7 @@ PendantComparison compare_with_pendant(const DataSet& data) {
     return result;
   }
   PendantSearch(data, result).run();
+  if (!result.explained) explain_by_rounded_unit(data, result);
   if (!result.explained) {
     result.findings.emplace_back(
         "No sign, exchange, convention, unit, zero or link length explains it: another robot, or poses that were not "

@@ -30,4 +30,8 @@ inline constexpr std::size_t kFewestPendantPoses = 6;
 /// length or angle; zeros of joints; link lengths. With fewer than kFewestPendantPoses only errors are told, and that.
 PendantComparison compare_with_pendant(const DataSet& data);
 
+/// Where the positions agree once they are read as metres or centimetres, and what their last digit then hides is
+/// allowed for: says so in `result`.
+void explain_by_rounded_unit(const DataSet& data, PendantComparison& result);
+
 }  // namespace demecal::inline data_check

@@ -36,6 +36,11 @@ std::string heading(const TargetFigures& figures) {
   return text + '\n';
 }
 
+/// Whether all of the target's correction was left out, since the calibration does not determine it.
+bool is_undetermined(const CorrectedTarget& target) {
+  return target.is_as_programmed() && !target.left.empty();
+}
+
 /// "line 12", or "FILE:12" of a program of several files.
 std::string place_text(const Program& program, const Target& target) {
   return program.further.empty() ? fmt::format("line {}", target.place.line)
@@ -49,10 +54,9 @@ std::string block(const Program& program, const Target& target, const CorrectedT
   const TargetFigures figures = target_figures(target, corrected, arm);
   text += fmt::format(": moved {:.4f} mm, turned {:.4f} deg", figures.moved_mm, figures.turned_deg);
   if (corrected.error95_m)
-    text +=
-        fmt::format(", {} within ± {:.3f} mm (k = 2)",
-                    corrected.command == corrected.nominal ? "left as programmed, which is reached to" : "corrected to",
-                    millimetres(*corrected.error95_m));
+    text += fmt::format(", {} within ± {:.3f} mm (k = 2)",
+                        corrected.is_as_programmed() ? "left as programmed, which is reached to" : "corrected to",
+                        millimetres(*corrected.error95_m));
   if (corrected.stop.payload_stated) text += fmt::format(", carrying {:g} kg", corrected.stop.payload_kg);
   text += '\n';
   const std::string names = heading(figures);
@@ -70,7 +74,7 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
             {"line", target.place.line},
             {"column", target.place.column},
             {"kind", target.is_pose() ? "pose" : "joints"},
-            {"corrected_by_model", !corrected.is_uncorrected()},
+            {"corrected_by_model", !corrected.is_uncorrected() && !is_undetermined(corrected)},
             {"joints_from", to_string(corrected.from)},
             {"frame", target.frames.frame.empty() ? "base" : target.frames.frame},
             {"tool", target.frames.tool ? target.frames.tool_name : "of the model"}};
@@ -161,8 +165,8 @@ TargetFigures target_figures(const Target& target, const CorrectedTarget& correc
 MovedFigures moved_figures(const CorrectedProgram& corrected) {
   MovedFigures figures;
   for (const CorrectedTarget& target : corrected.targets) {
-    if (target.is_uncorrected()) {
-      ++figures.uncorrected;
+    if (target.is_uncorrected() || is_undetermined(target)) {
+      ++(target.is_uncorrected() ? figures.uncorrected : figures.undetermined);
       continue;
     }
     const double moved_mm = 1e3 * (target.command_tool.translation() - target.nominal_tool.translation()).norm();
@@ -180,8 +184,13 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
     text += block(corrected.program, corrected.program.targets[i], corrected.targets[i], arm, last_heading);
   }
   const MovedFigures figures = moved_figures(corrected);
-  text += fmt::format("{} targets corrected; the tool is moved by {:.4f} mm in the mean, {:.4f} mm at most",
-                      figures.targets, figures.mean_mm, figures.max_mm);
+  text += fmt::format("{} targets corrected", figures.targets);
+  if (figures.targets > 0)
+    text +=
+        fmt::format("; the tool is moved by {:.4f} mm in the mean, {:.4f} mm at most", figures.mean_mm, figures.max_mm);
+  if (figures.undetermined > 0)
+    text += fmt::format("; {} left as programmed, since the calibration does not determine what to correct there",
+                        figures.undetermined);
   const std::size_t left = static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size();
   if (left > 0) text += fmt::format("; {} left as they are", left);
   text += '\n';
@@ -195,7 +204,8 @@ std::string summary_json(const CorrectedProgram& corrected, const Chain& arm) {
             {"language", corrected.program.language},
             {"targets", Json::array()},
             {"moved_mm", {{"mean", figures.mean_mm}, {"max", figures.max_mm}}},
-            {"left", static_cast<std::size_t>(figures.uncorrected) + corrected.program.uncorrected.size()},
+            {"left", static_cast<std::size_t>(figures.uncorrected + figures.undetermined) +
+                         corrected.program.uncorrected.size()},
             {"notes", notes_of(corrected, arm)},
             {"warnings", Json::array()}};
   for (std::size_t i = 0; i < corrected.targets.size(); ++i) {

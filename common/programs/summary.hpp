@@ -24,6 +24,7 @@ TargetFigures target_figures(const Target& target, const CorrectedTarget& correc
 /// Mean and largest distance, mm, that corrections move the nominal robot's tool point, over the targets corrected.
 struct MovedFigures {
   int targets = 0, uncorrected = 0;  ///< corrected (where nothing had to change, too), and left as they are
+  int undetermined = 0;              ///< left as programmed, since the calibration does not determine the correction
   double mean_mm = 0.0, max_mm = 0.0;
 };
 MovedFigures moved_figures(const CorrectedProgram& corrected);
@@ -36,9 +37,8 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm);
 /// predicted_error95_mm (radius that holds the real tool point 95 % of the time, without measurement noise; of models
 /// that state it; it is twice standard_uncertainty_mm, and coverage_factor says so), widened_by (why
 /// that radius is larger than where the arm was measured), left_as_programmed (sentences),
-/// and of poses turned_deg; `moved_mm` mean and max; `left`, how many are as they were; `notes` (from where joints
-/// and poses are taken to count); `warnings` (line 0: of the
-/// whole program).
+/// and of poses turned_deg; `moved_mm` mean and max; `left`, how many are as they were, for whatever reason; `notes`
+/// (from where joints and poses are taken to count); `warnings` (line 0: of the whole program).
 std::string summary_json(const CorrectedProgram& corrected, const Chain& arm);
 
 /// "FILE:12: #cp[3]: SENTENCE", a line of its own; without the number where it is about the whole program.

@@ -56,6 +56,8 @@ struct CorrectedTarget {
   bool is_uncorrected() const {
     return outcome == CorrectionOutcome::uncorrected || outcome == CorrectionOutcome::no_joints;
   }
+  /// Whether its joints and configuration are known, and it is sent to where it was.
+  bool is_as_programmed() const { return !is_uncorrected() && command == nominal; }
 };
 
 /// The radius that holds the real tool point about where the model has it at that stop, 95 % of the time, m; larger

@@ -86,10 +86,26 @@ bool tells_no_place(const Report& report) {
   return !report.contacts.empty() && report.workspace_error && report.workspace_error->beside_base;
 }
 
+/// Whether numbers were fitted, and none of them is of the base: registration was not declared.
+bool fits_no_base(const Report& report) {
+  return !report.parameters.empty() && std::ranges::none_of(report.parameters, [](const ParameterEntry& entry) {
+    return entry.name.starts_with("base_");
+  });
+}
+
+/// Whether neither base nor tool was fitted.
+bool places_nothing(const Report& report) {
+  return report.parameters.empty() && has_mean(report.registered) &&
+         std::ranges::all_of(kPoseSets, [&](const ReportPoseSet& set) {
+           return (report.registered.*set.errors).mean_mm == (report.nominal.*set.errors).mean_mm;
+         });
+}
+
 }  // namespace
 
 std::vector<Stage> error_stages(const Report& report) {
-  const bool placed = !tells_no_place(report);
+  const bool nothing = places_nothing(report);
+  const bool placed = !tells_no_place(report) && !fits_no_base(report) && !nothing;
   std::vector<Stage> stages{
       {"nominal", placed ? "before registration (instrument frame)" : "as described", &report.nominal},
       {"registered", placed ? "base fitted" : "tool fitted", &report.registered},
@@ -97,6 +113,7 @@ std::vector<Stage> error_stages(const Report& report) {
       {"before", declared_stage(report), &report.before},
       {"after", "with the effects found", &report.after}};
   if (has_mean(report.before) && !report.added_any()) stages.pop_back();
+  if (nothing) std::erase_if(stages, [](const Stage& stage) { return stage.key == "registered"; });
   std::erase_if(stages, [](const Stage& stage) { return !has_mean(*stage.errors); });
   return stages;
 }

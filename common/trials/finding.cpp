@@ -17,7 +17,7 @@ struct KindRow {
   bool contradicts;
 };
 
-constexpr std::array<KindRow, 39> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
+constexpr std::array<KindRow, 40> kKinds{{{FindingKind::joint_sign, "joint_sign", true},
                                           {FindingKind::joint_offset, "joint_offset", true},
                                           {FindingKind::joints_exchanged, "joints_exchanged", true},
                                           {FindingKind::axes_exchanged, "axes_exchanged", true},
@@ -55,6 +55,7 @@ constexpr std::array<KindRow, 39> kKinds{{{FindingKind::joint_sign, "joint_sign"
                                           {FindingKind::many_outliers, "many_outliers", true},
                                           {FindingKind::implausible_link, "implausible_link", false},
                                           {FindingKind::implausible_payload, "implausible_payload", false},
+                                          {FindingKind::undeclared_registration, "undeclared_registration", true},
                                           {FindingKind::other_robot, "other_robot", true}}};
 
 const KindRow& row_of(FindingKind kind) {

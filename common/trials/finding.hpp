@@ -48,6 +48,7 @@ enum class FindingKind {
   implausible_link,
   implausible_payload,
   taken_on_the_way,
+  undeclared_registration,
   other_robot
 };
 

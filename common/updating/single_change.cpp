@@ -48,7 +48,7 @@ std::optional<ChangeReport> checked(const CalibratedModel& model, const DataSet&
 
 std::optional<SingleChange> single_change(const CalibratedModel& model, const DataSet& data,
                                           const std::vector<std::size_t>& poses) {
-  if (model.fleet || !model.posterior || !data.stations.empty()) return std::nullopt;
+  if (model.fleet || !model.posterior || !data.stations.empty() || has_contacts(data)) return std::nullopt;
   const std::optional<ChangeReport> report = checked(model, data, poses);
   if (!report || report->unnamed) return std::nullopt;
   SingleChange change{model.robot, {.base = report->set_up_anew, .tool = false}};

@@ -22,6 +22,7 @@
 #include "coordinator/result_folder.hpp"
 #include "coordinator/workers.hpp"
 #include "data/data_set.hpp"
+#include "data_check/check_data.hpp"
 #include "data_files/robot_file.hpp"
 #include "dds/dds_transport.hpp"
 #include "diagnosis/outcome.hpp"
@@ -203,7 +204,8 @@ ExitCode run_calibrate(CalibrateRequest request) {
   if (!request.resume.empty() && !same_folder(request.out, request.resume))
     throw ArgumentError("--out names another folder than --resume: a resumed run leaves its results where it was");
   const Job job = job_of(request);
-  const CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
+  CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
+  check_declared(checked.data, job.declared, checked.check);
   const DataSet& data = checked.data;
   if (job.method == Method::structural) require_instrument(data, "the method structural");
   std::vector<std::string> files = result_files(job.method);

@@ -24,6 +24,7 @@
 #include "coordinator/result_folder.hpp"
 #include "coordinator/workers.hpp"
 #include "data/data_set.hpp"
+#include "data_check/check_data.hpp"
 #include "effects/effect.hpp"
 #include "expression/simplify.hpp"
 #include "expression/tree.hpp"
@@ -137,7 +138,8 @@ ExitCode compare_ours(const CompareRequest& request, const DataSet& data, const 
 
 ExitCode run_compare(const CompareRequest& request) {
   const Job job = compared_job(request);
-  const CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
+  CheckedData checked = load_checked(job.data_files, job.station_tools, request.force);
+  check_declared(checked.data, job.declared, checked.check);
   const DataSet& data = checked.data;
   require_instrument(data, "compare");
   std::vector<std::string> files = result_files(job.method);

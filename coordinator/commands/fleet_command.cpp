@@ -1,8 +1,6 @@
 
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -17,6 +15,7 @@
 #include "coordinator/commands.hpp"
 #include "data/data_set.hpp"
 #include "errors/input_error.hpp"
+#include "terminal/fleet_text.hpp"
 #include "updating/fleet_model.hpp"
 #include "yaml/files.hpp"
 
@@ -41,24 +40,6 @@ void require_fleet_file(const FleetRequest& request) {
                       " is there already, and not a fleet's file; name another, or give --force to overwrite it");
 }
 
-std::string table(const CalibratedModel& model) {
-  std::size_t width = 6;
-  for (const FleetNumber& one : model.fleet->numbers) width = std::max(width, one.name.size());
-  std::string text = fmt::format("  {:<{}} {:>12} {:>12} {:>12}\n", "number", width, "mean", "spread", "mean within");
-  for (const FleetNumber& one : model.fleet->numbers)
-    text += fmt::format("  {:<{}} {:>12.5g} {:>12.2g} {:>12.2g}\n", one.name, width, one.mean, one.spread,
-                        one.standard_error);
-  for (const FleetCurve& curve : model.fleet->curves) {
-    double squares = 0.0;
-    for (const double deviation : curve.wave_deviations_rad) squares += deviation * deviation;
-    text += fmt::format("  correction of joint {}: robots differ by {:.2g} mrad rms over its range\n", curve.joint + 1,
-                        1e3 * std::sqrt(squares));
-  }
-  for (const JointSummary& joint : model.joints)
-    if (!joint.note.empty()) text += fmt::format("  correction of joint {}: none, {}\n", joint.joint + 1, joint.note);
-  return text;
-}
-
 ExitCode run_fleet(const FleetRequest& request) {
   std::vector<NamedModel> models;
   for (const std::string& file : request.model_files) models.push_back({file, load_model(file)});
@@ -69,7 +50,7 @@ ExitCode run_fleet(const FleetRequest& request) {
   fleet.data_sha256 = sha256(hashes);
   fleet.version = DEMECAL_VERSION;
   write_file(request.out, model_text(fleet));
-  fmt::print("{}: {} robots of the type {}\n{}", request.out, models.size(), fleet.nominal.name, table(fleet));
+  fmt::print("{}: {} robots of the type {}\n{}", request.out, models.size(), fleet.nominal.name, fleet_table(fleet));
   fmt::print("A further robot of the type begins with it: demecal calibrate JOB.yaml --prior {} --out DIR\n",
              request.out);
   return ExitCode::done;

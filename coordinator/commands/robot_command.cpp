@@ -18,6 +18,7 @@
 #include "coordinator/shown_robot.hpp"
 #include "data/data_set.hpp"
 #include "data/text.hpp"
+#include "data_files/doubtful_units.hpp"
 #include "data_files/link_inertias.hpp"
 #include "data_files/robot_file.hpp"
 #include "drafting/templates.hpp"
@@ -82,14 +83,17 @@ JointVector joints_asked(const std::string& at, const Chain& chain) {
 
 ExitCode run_show(const ShowOptions& options) {
   const Robot robot = load_robot(options.file);
+  const std::vector<std::string> units = doubtful_units(options.file);
+  for (const std::string& doubt : units) fmt::print(stderr, "{}\n", doubt);
   if (!options.compare.empty())
     return print_comparison(options.compare, robot, options.json) ? ExitCode::done : ExitCode::contradiction;
   const LinkInertias inertias = load_link_inertias(options.file);
   const JointVector q =
       options.at.empty() && robot.home.size() > 0 ? robot.home : joints_asked(options.at, robot.chain);
-  const ShownRobot shown{robot, inertias, q,
-                         options.at.empty() ? std::vector<std::string>() : beyond_limits_sentences(robot.chain, q)};
+  ShownRobot shown{robot, inertias, q,
+                   options.at.empty() ? std::vector<std::string>() : beyond_limits_sentences(robot.chain, q)};
   for (const std::string& warning : shown.warnings) fmt::print(stderr, "{}: {}\n", options.file, warning);
+  shown.warnings.insert(shown.warnings.begin(), units.begin(), units.end());
   if (!options.picture.empty()) write_named(options.picture, arm_picture(robot, q), options.file, options.force);
   if (options.json) {
     fmt::print("{}\n", shown_json(shown));

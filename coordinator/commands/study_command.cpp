@@ -16,6 +16,7 @@
 #include "coordinator/result_folder.hpp"
 #include "coordinator/workers.hpp"
 #include "data/data_set.hpp"
+#include "data_check/check_data.hpp"
 #include "dds/dds_transport.hpp"
 #include "errors/input_error.hpp"
 #include "evolution/building_blocks.hpp"
@@ -112,9 +113,9 @@ ExitCode calibrate_grid(const StudyRequest& request) {
   const std::vector<GridAxis> axes = grid_axes(request);
   const std::vector<GridCell> cells = grid_cells(request.job_file, axes);
   const Job& first = cells.front().job;
-  const CheckedData checked = request.data_file.empty()
-                                  ? load_checked(first.data_files, first.station_tools, request.force)
-                                  : load_checked(request.data_file);
+  CheckedData checked = request.data_file.empty() ? load_checked(first.data_files, first.station_tools, request.force)
+                                                  : load_checked(request.data_file);
+  check_declared(checked.data, first.declared, checked.check);
   if (refuses(checked, request.force, ShownFindings::all)) return ExitCode::contradiction;
   fmt::print(stderr, "{}", to_terminal(data_check_entry(checked.check), ShownFindings::all));
   const DataSet& data = checked.data;

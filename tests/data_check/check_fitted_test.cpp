@@ -47,6 +47,27 @@ TEST(CheckFitted, NamesALinkThatIsFittedFarFromItsDescription) {
   EXPECT_THAT(finding.sentence, HasSubstr("Joint 2 and its link are fitted far from the robot's description: theta"));
 }
 
+TEST(CheckDeclared, RefusesAFitWithoutABaseInAnotherFrame) {
+  DataSet data = bench::unmistaken_cases({benchmark_arm()}, 1).front().data;
+  for (const DeclaredModel& declared : {DeclaredModel{.tool = true, .geometry = true}, DeclaredModel{}}) {
+    DataCheck check;
+    check_declared(data, declared, check);
+    ASSERT_TRUE(check.has(FindingKind::undeclared_registration));
+    EXPECT_EQ(check.verdict(), DataVerdict::contradiction);
+    EXPECT_THAT(said_of(check), HasSubstr("`registration` is not declared"));
+  }
+  DataCheck with_base, in_its_frame;
+  check_declared(data, {.registration = true, .tool = true}, with_base);
+  EXPECT_TRUE(with_base.findings.empty());
+  const CorrectedRobot placed = fit_registration(data, poses_of(data, PoseSet::calibration),
+                                                 {.registration = true, .tool = true}, nominal_robot(data))
+                                    .robot;
+  for (MeasuredPose& pose : data.poses)
+    if (pose.position_m) *pose.position_m = placed.sensor_from_base.inverse() * *pose.position_m;
+  check_declared(data, {.tool = true, .geometry = true}, in_its_frame);
+  EXPECT_TRUE(in_its_frame.findings.empty()) << said_of(in_its_frame);
+}
+
 TEST(CheckFitted, TakesBackWhatTheModelExplains) {
   DataSet data = bench::unmistaken_cases({benchmark_arm()}, 1).front().data;
   const Fit fit = fit_registration(data, poses_of(data, PoseSet::calibration), {.registration = true, .tool = true},

@@ -10,6 +10,7 @@
 #include <functional>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "data_check/pendant.hpp"
 #include "elbow_arm.hpp"
@@ -41,6 +42,20 @@ DataSet shown_to(double step_deg, const Chain& truth, const Chain& described, in
     data.poses.push_back(std::move(pose));
   }
   return data;
+}
+
+TEST(PendantRounding, OfAnotherUnitIsAllowedForAsWell) {
+  for (const auto& [per_metre, word] : {std::pair(1e-3, "metres"), std::pair(1e-1, "centimetres")}) {
+    DataSet data = shown_to(1e-3, elbow(), elbow(), 8, 4471);
+    for (MeasuredPose& pose : data.poses)  // three decimals of metres, one of centimetres, headed as millimetres
+      pose.position_m =
+          per_metre * pose.position_m->unaryExpr([](double value) { return 1e-3 * std::round(1e3 * value); });
+    const PendantComparison comparison = compare_with_pendant(data);
+    EXPECT_FALSE(comparison.agrees);
+    EXPECT_TRUE(comparison.explained);
+    EXPECT_THAT(comparison.findings, Contains(HasSubstr(std::string("positions are in ") + word)));
+    EXPECT_THAT(comparison.findings, Contains(HasSubstr("rounded (positions to 1 mm)")));
+  }
 }
 
 Chain mistaken(const std::function<void(Chain&)>& mistake) {

@@ -135,6 +135,31 @@ TEST(Correction, OutsideOfWhatWasMeasuredIsMadeAsFarAsJointsCorrectionsAreKnown)
   EXPECT_GE(helped, 0.1 * outside);
 }
 
+TEST(Correction, ThatIsNotDeterminedCountsAsNone) {
+  RandomStream stream{7514};
+  const Robot nominal = elbow_arm(stream);
+  const CommandModel model = sure_to(erring_model(stream, nominal), 1.0);
+  CorrectedProgram corrected;
+  for (const bool determined : {true, false, false}) {
+    Target target;
+    target.joints.resize(6);
+    corrected.program.targets.push_back(target);
+    const Stop stop(regular_joints(stream, nominal.chain));
+    corrected.targets.push_back(correct_target(target, determined ? sure_to(model, 1e-7) : model, stop));
+    if (!determined) corrected.targets.back().command = corrected.targets.back().nominal;
+  }
+  ASSERT_TRUE(corrected.targets[1].is_as_programmed());
+  ASSERT_FALSE(corrected.targets[1].left.empty());
+  const MovedFigures figures = moved_figures(corrected);
+  EXPECT_EQ(figures.targets, 1);
+  EXPECT_EQ(figures.undetermined, 2);
+  const std::string table = summary_table(corrected, nominal.chain), json = summary_json(corrected, nominal.chain);
+  EXPECT_NE(table.find("1 targets corrected"), std::string::npos) << table;
+  EXPECT_NE(table.find("2 left as programmed, since the calibration does not determine"), std::string::npos) << table;
+  EXPECT_NE(json.find("\"corrected_by_model\":false"), std::string::npos) << json;
+  EXPECT_NE(json.find("\"left\":2"), std::string::npos) << json;
+}
+
 TEST(Correction, SaysWhereRadiiComeFromFittedPoses) {
   RandomStream stream{7513};
   const Robot nominal = elbow_arm(stream);

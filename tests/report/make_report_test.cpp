@@ -133,7 +133,8 @@ TEST(NoiseFloor, DoesNotTakeDifferentTargetsForRepeats) {
 TEST(ErrorStages, NameNoBaseWhereNothingTellsWhereTheArmStands) {
   for (const bool touched : {false, true}) {
     Report report;
-    report.nominal.calibration.mean_mm = report.registered.calibration.mean_mm = 1.0;
+    report.nominal.calibration.mean_mm = 1.0;
+    report.registered.calibration.mean_mm = 0.5;
     if (touched) report.contacts.emplace_back();
     report.workspace_error = WorkspaceEntry{0.1, 0.2, touched};
     const std::vector<Stage> stages = error_stages(report);
@@ -141,6 +142,24 @@ TEST(ErrorStages, NameNoBaseWhereNothingTellsWhereTheArmStands) {
     EXPECT_EQ(stages[0].title, touched ? "as described" : "before registration (instrument frame)");
     EXPECT_EQ(stages[1].title, touched ? "tool fitted" : "base fitted");
   }
+}
+
+TEST(ErrorStages, NameNoBaseWhereNoneIsDeclared) {
+  Report report;
+  report.nominal.calibration.mean_mm = 1.0;
+  report.registered.calibration.mean_mm = 0.5;
+  report.parameters = {{"tool_x_mm", 0.0, 1.0, 0.1}};
+  const std::vector<Stage> with_tool = error_stages(report);
+  ASSERT_EQ(with_tool.size(), 2u);
+  EXPECT_EQ(with_tool[0].title, "as described");
+  EXPECT_EQ(with_tool[1].title, "tool fitted");
+  report.parameters.push_back({"base_x_mm", 0.0, 1.0, 0.1});
+  EXPECT_EQ(error_stages(report)[1].title, "base fitted");
+  report.parameters.clear();
+  report.registered = report.nominal;
+  const std::vector<Stage> with_nothing = error_stages(report);
+  ASSERT_EQ(with_nothing.size(), 1u) << "a row of what was not fitted";
+  EXPECT_EQ(with_nothing[0].title, "as described");
 }
 
 }  // namespace
