@@ -80,7 +80,7 @@ std::string rivals_line(const RoundEntry& round) {
   if (rivals.empty()) return {};
   std::string names;
   for (std::size_t i = 0; i < std::min(rivals.size(), kMostNamedRivals); ++i) {
-    names += fmt::format("{}{} (cosine {:.2f})", names.empty() ? "" : "; ", rivals[i]->effect.name(),
+    names += fmt::format("{}{} (cosine {:.2f})", names.empty() ? "" : "; ", rivals[i]->effect.full_name(),
                          rivals[i]->cosine.value_or(0.0));
   }
   if (rivals.size() > kMostNamedRivals) names += fmt::format("; {} more", rivals.size() - kMostNamedRivals);
@@ -176,7 +176,7 @@ std::string refused_lines(const Report& report) {
 
 std::string dropped_line(const Report& report) {
   std::string names;
-  for (const EffectEntry& effect : report.dropped) names += (names.empty() ? "" : "; ") + effect.name();
+  for (const EffectEntry& effect : report.dropped) names += (names.empty() ? "" : "; ") + effect.full_name();
   return names.empty() ? names : wrapped("  added, and taken back:", names, 4);
 }
 
