@@ -93,7 +93,7 @@ std::string front_table(const Report& report) {
 
 std::string dropped(const Report& report) {
   std::vector<std::string> names;
-  for (const EffectEntry& effect : report.dropped) names.push_back(effect.name());
+  for (const EffectEntry& effect : report.dropped) names.push_back(effect.full_name());
   if (names.empty()) return {};
   return "<p class=\"note\">Added, and taken back once others had explained the same:</p>\n" + name_list(names);
 }

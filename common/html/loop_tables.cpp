@@ -37,7 +37,7 @@ std::string why(const std::string& sentence) {
 std::string rivals(const RoundEntry& round) {
   std::string text;
   for (const RivalEntry& rival : round.rivals) {
-    text += (text.empty() ? "" : "; ") + escaped(rival.effect.name());
+    text += (text.empty() ? "" : "; ") + escaped(rival.effect.full_name());
     if (rival.cosine) text += " (cosine " + fixed(rival.cosine, 2) + ")";
   }
   return text;
@@ -119,7 +119,7 @@ std::string titled(const char* title, const std::string& note, const std::string
 
 std::string not_found_row(const NotFoundEntry& missing) {
   const std::optional<double>& smallest = missing.smallest_detectable;
-  return table_row(escaped(missing.effect.name()),
+  return table_row(escaped(missing.effect.full_name()),
                    {smallest ? fmt::format("{:.3g}", *smallest) : "–", escaped(missing.unit),
                     smallest             ? escaped(limit_amount(*smallest, missing.unit))
                     : missing.testable() ? "–"

@@ -203,7 +203,11 @@ std::string change(std::optional<double> before, std::optional<double> after) {
   if (!before || !after || *before == 0.0) return std::string(kDash);
   const double percent = 100.0 * (*after - *before) / std::abs(*before);
   if (!std::isfinite(percent)) return std::string(kDash);
-  return fmt::format("{}{}\u00A0%", percent >= 0.5 ? "+" : "", fixed(percent, 0));
+  constexpr int kMostDecimals = 3;
+  int decimals = 0;  // something is left: not all of it is gone
+  while (percent > -100.0 && decimals < kMostDecimals && fixed(percent, decimals) == fixed(-100.0, decimals))
+    ++decimals;
+  return fmt::format("{}{}\u00A0%", percent >= 0.5 ? "+" : "", fixed(percent, decimals));
 }
 
 std::string duration(double seconds) {

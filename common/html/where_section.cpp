@@ -154,6 +154,19 @@ std::string plots(const Report& report) {
          choices + "</select></label></div>\n</div>\n";
 }
 
+/// Which stages the errors before and after are of.
+std::string stages_note(const Report& report) {
+  const std::vector<Stage> stages = error_stages(report);
+  const Stage* const before = find_stage(stages, "before");
+  if (before == nullptr) return "Errors before are those that the closed loop started from.";
+  const Stage* const after = find_stage(stages, "after");
+  if (after == nullptr)
+    return "Errors before and after are the same, those of the stage “" + escaped(before->title) +
+           "”: no effect was added to it.";
+  return "Errors before are those of the stage “" + escaped(before->title) + "”, those after of “" +
+         escaped(after->title) + "”.";
+}
+
 /// Where the radii that hold 95 % come from.
 std::string radii_note(const Report& report) {
   if (!report.prediction_interval || report.prediction_interval->remark.empty()) return {};
@@ -166,9 +179,8 @@ std::string radii_note(const Report& report) {
 std::string where_section(const Report& report) {
   if (report.pose_errors.empty()) return {};
   const std::string opening =
-      "<p class=\"note\">Errors before are those that the closed loop started from, with everything declared fitted. "
-      "All of it is in pose-errors.csv, too. The table filters the pictures with it.</p>\n" +
-      radii_note(report) +
+      "<p class=\"note\">" + stages_note(report) +
+      " All of it is in pose-errors.csv, too. The table filters the pictures with it.</p>\n" + radii_note(report) +
       "<p class=\"pose-name\" id=\"pose-name\" aria-live=\"polite\">Point at a pose, or pick one in the table.</p>\n";
   return section("where", "Where the errors are",
                  opening + std::string(kView) + plots(report) + pose_table(report) + target_table(report) +

@@ -254,23 +254,6 @@ NextMeasurement describe(const std::vector<Experiment>& all, const Effect& named
 
 }  // namespace
 
-std::string to_string(const Effect& effect) {
-  std::string text = effect.kind;
-  std::ranges::replace(text, '_', ' ');
-  if (effect.joint >= 0) text += " of joint " + std::to_string(effect.joint + 1);
-  std::vector<std::string> details;
-  const std::vector<std::string> forms = law_of(effect).forms();
-  if (!effect.form.empty() && effect.form != forms.front()) details.push_back(effect.form);
-  for (const auto& [name, value] : effect.settings) {
-    if (name == "from") details.push_back("from joint " + rounded_text(value));
-    if (name == "ratio" || name == "order") details.push_back(name + ' ' + rounded_text(value));
-    if (name == "gravity_turn") details.push_back("gravity turned " + rounded_text(value));
-    if (name.starts_with("keep_")) details.push_back(name.substr(5));
-  }
-  for (std::size_t i = 0; i < details.size(); ++i) text += (i == 0 ? " (" : ", ") + details[i];
-  return details.empty() ? text : text + ')';
-}
-
 std::optional<NextMeasurement> find_next_measurement(const DiagnosisProblem& problem, const DiagnosedModel& model,
                                                      const Effect& named, const std::vector<Rival>& rivals,
                                                      RandomStream random) {

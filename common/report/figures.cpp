@@ -237,6 +237,15 @@ std::string limit_amount(double value, const std::string& unit) {
   return with_unit(value, unit, 2);
 }
 
+std::array<std::string, 2> limit_amounts(double lower, double upper, const std::string& unit) {
+  constexpr double kThousandth = 1e-3;
+  std::array<std::string, 2> texts{limit_amount(lower, unit), limit_amount(upper, unit)};
+  const auto unit_of = [](const std::string& text) { return text.substr(std::min(text.size(), text.find(' '))); };
+  const std::string shown = unit_of(texts[1]);
+  if (shown != unit_of(texts[0]) && shown == " m" + unit) texts[0] = significant_digits(lower / kThousandth, 2) + shown;
+  return texts;
+}
+
 std::string probability(std::optional<double> p) {
   return p && std::isfinite(*p) ? fmt::format("{:.2g}", *p) : "–";
 }

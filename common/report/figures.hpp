@@ -74,6 +74,9 @@ std::string amount(double value, const std::string& unit);
 /// The same with two digits, and small angles in arc seconds: "8 arcsec".
 std::string limit_amount(double value, const std::string& unit);
 
+/// Two limits, the lower first, in the same unit.
+std::array<std::string, 2> limit_amounts(double lower, double upper, const std::string& unit);
+
 /// A p-value: "0.001", "0.24"; a dash where there is none.
 std::string probability(std::optional<double> p);
 
@@ -110,11 +113,11 @@ std::string doubt_sentence(const Report& report);
 /// What the model's rms error of each set is without suspected outliers, and with them; empty where there are none.
 std::string outliers_sentence(const Report& report);
 
-/// What the loop's tests of the whole model say, in up to three sentences; empty where nothing is known.
-std::string statistics_sentences(const Report& report);
-
 /// Which of the corrections are formulas as they evolved and which are sums of smooth terms in their place, and what
 /// the evolved ones would leave; empty where nothing evolved or a report does not say where its corrections are from.
 std::string origins_sentence(const Report& report);
+
+/// What the loop's tests of the whole model say, in up to three sentences; empty where nothing is known.
+std::string statistics_sentences(const Report& report);
 
 }  // namespace demecal::inline report

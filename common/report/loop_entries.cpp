@@ -22,6 +22,7 @@
 #include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
 #include "kinematics/units.hpp"
+#include "next_measurement/effect_words.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "report/figures.hpp"

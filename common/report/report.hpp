@@ -90,6 +90,8 @@ struct EffectEntry {
   std::string distinction() const;
   /// "gear_harmonic (ratio 24), joint 2".
   std::string name() const;
+  /// The same with the masses that it is of, where these are unknown: "compliance (moments of links 2 to 7), joint 2".
+  std::string full_name() const;
   /// "0.412 mrad"; empty where it has no values.
   std::string size() const;
 };

@@ -53,14 +53,16 @@ std::vector<std::string> widened_sentences(const CalibratedModel& model, const D
   std::vector<std::string> sentences;
   if (rows_outside > 0)
     sentences.push_back(
-        fmt::format("{} of the {} measurements lie outside of what the model was measured at, and their radii are "
+        fmt::format("{} of the {} measurements {} outside of what the model was measured at, and {} "
                     "widened by judgement: {}.",
-                    rows_outside, rows.size(), listed(outside)));
+                    rows_outside, rows.size(), rows_outside == 1 ? "lies" : "lie",
+                    rows_outside == 1 ? "its radius is" : "their radii are", listed(outside)));
   if (rows_unstated > 0)
     sentences.push_back(
-        fmt::format("{} of the {} measurements do not state what the model's errors depend on, and their radii hold "
+        fmt::format("{} of the {} measurements {} not state what the model's errors depend on, and {} "
                     "whatever was measured: {}.",
-                    rows_unstated, rows.size(), listed(unstated)));
+                    rows_unstated, rows.size(), rows_unstated == 1 ? "does" : "do",
+                    rows_unstated == 1 ? "its radius holds" : "their radii hold", listed(unstated)));
   return sentences;
 }
 

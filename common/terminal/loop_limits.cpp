@@ -59,12 +59,20 @@ bool was_added(const Report& report, const std::string& kind) {
                              [&kind](const RoundEntry& round) { return round.added() && round.effect.kind == kind; });
 }
 
+/// Their limit is that of the turn under a weight that pulls straight across the axis.
+bool of_unknown_masses(const NotFoundEntry* missing) {
+  return missing->effect.form == "moments";
+}
+
 std::string limits_of(const Searched& searched) {
   const auto [least, most] = std::ranges::minmax_element(
       searched.places, {}, [](const NotFoundEntry* missing) { return *missing->smallest_detectable; });
-  if (searched.places.size() == 1) return searched_place(**least) + " below " + limit(**least);
-  return fmt::format("below {} ({}) to {} ({})", limit(**least), searched_place(**least), limit(**most),
-                     searched_place(**most));
+  const char* const note = std::ranges::any_of(searched.places, of_unknown_masses)
+                               ? "; moments: with the whole lever of the weight, of which these poses have a part"
+                               : "";
+  if (searched.places.size() == 1) return searched_place(**least) + " below " + limit(**least) + note;
+  const auto [from, to] = limit_amounts(*(*least)->smallest_detectable, *(*most)->smallest_detectable, searched.unit);
+  return fmt::format("below {} ({}) to {} ({}){}", from, searched_place(**least), to, searched_place(**most), note);
 }
 
 std::string not_found_lines(const Report& report) {

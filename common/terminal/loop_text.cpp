@@ -25,7 +25,7 @@ constexpr std::size_t kIndent = 7;          // of what is said of one effect
 constexpr std::size_t kMostHarmonics = 12;  // that take a line each
 constexpr std::size_t kMostNamedRivals = 3;
 constexpr std::size_t kMostRefused = 2;
-constexpr std::size_t kMostNameLetters = 42;
+constexpr std::size_t kMostNameLetters = 42, kSizeLetters = 13;
 constexpr std::size_t kMostDiagnoses = 8;  // effects, for each to get its sentence
 
 using Rounds = std::vector<const RoundEntry*>;
@@ -48,8 +48,11 @@ std::string mm_or_dash(std::optional<double> value) {
 
 std::string round_columns(const std::string& number, const std::string& name, const std::string& size,
                           const std::string& p, const std::string& before, const std::string& after) {
-  std::string line = right_aligned(number, 5) + "  " + left_aligned(name, kMostNameLetters) + right_aligned(size, 13) +
-                     right_aligned(p, 9) + right_aligned(before, 12);
+  // A long size takes room of the name: a unit that is cut off is another unit.
+  const std::size_t size_letters = std::max(kSizeLetters, display_width(size) + 1);
+  const std::size_t name_letters = kMostNameLetters + kSizeLetters - size_letters;
+  std::string line = right_aligned(number, 5) + "  " + left_aligned(name, name_letters) +
+                     right_aligned(size, size_letters) + right_aligned(p, 9) + right_aligned(before, 12);
   return line + (after.empty() ? "" : " -> " + after) + "\n";
 }
 
@@ -80,7 +83,7 @@ std::string rivals_line(const RoundEntry& round) {
   if (rivals.empty()) return {};
   std::string names;
   for (std::size_t i = 0; i < std::min(rivals.size(), kMostNamedRivals); ++i) {
-    names += fmt::format("{}{} (cosine {:.2f})", names.empty() ? "" : "; ", rivals[i]->effect.name(),
+    names += fmt::format("{}{} (cosine {:.2f})", names.empty() ? "" : "; ", rivals[i]->effect.full_name(),
                          rivals[i]->cosine.value_or(0.0));
   }
   if (rivals.size() > kMostNamedRivals) names += fmt::format("; {} more", rivals.size() - kMostNamedRivals);
@@ -176,7 +179,7 @@ std::string refused_lines(const Report& report) {
 
 std::string dropped_line(const Report& report) {
   std::string names;
-  for (const EffectEntry& effect : report.dropped) names += (names.empty() ? "" : "; ") + effect.name();
+  for (const EffectEntry& effect : report.dropped) names += (names.empty() ? "" : "; ") + effect.full_name();
   return names.empty() ? names : wrapped("  added, and taken back:", names, 4);
 }
 

@@ -169,31 +169,6 @@ TEST_F(EventFiles, TellOfEveryCauseAndTheFinalFiguresBeforeTheEnd) {
   EXPECT_EQ(of_validation, (FinalFigures{calibration, "job", 2, 2, 0.5e-3, 0.25e-3, 0.0, 0.0}));
 }
 
-TEST_F(EventFiles, TellARoundAgainWhoseEffectTheLastFitChanged) {
-  EventLog log(folder, false, "job", join(make_exchange(), Role::reporter, "reporter"));
-  Round round;
-  round.number = 1;
-  round.verdict = Verdict::added;
-  round.effect.kind = "backlash";
-  round.effect.joint = 1;
-  round.diagnosis = "Joint 2 stops 0.225 mrad short.";
-  log.on_round(round, {});
-  Report report;
-  report.rounds.resize(1);
-  report.rounds[0].round = 1;
-  report.rounds[0].verdict = "added";
-  report.rounds[0].effect.kind = "backlash";
-  report.rounds[0].effect.joint = 2;
-  report.rounds[0].diagnosis = "Joint 2 stops 0.236 mrad short.";
-  log.tell_of(report);
-  log.tell_of(report);
-  std::vector<std::string> texts;
-  for (const Message& message : messages_in(path))
-    if (const auto* news = std::get_if<LoopNews>(&message); news != nullptr && news->round == 1)
-      texts.push_back(news->text);
-  EXPECT_EQ(texts, (std::vector<std::string>{round.diagnosis, report.rounds[0].diagnosis}));
-}
-
 TEST_F(EventFiles, TellWhoComesLateWhatARunReachedWhoseWorkersAreGone) {
   const auto exchange = make_exchange();
   EventLog log(folder, false, "job", join(exchange, Role::reporter, "reporter"));

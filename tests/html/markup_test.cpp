@@ -61,6 +61,9 @@ TEST(GroupedNumber, ReadsBackWithoutItsSpaces) {
 
 TEST(Change, IsSignedAndRelativeToWhatWas) {
   EXPECT_EQ(change(2.0, 1.0), "-50\u00A0%");
+  EXPECT_EQ(change(128.035, 0.519), "-99.6\u00A0%");
+  EXPECT_EQ(change(1e9, 1.0), "-100.000\u00A0%");
+  EXPECT_EQ(change(2.0, 0.0), "-100\u00A0%");
   EXPECT_EQ(change(1.0, 1.25), "+25\u00A0%");
   EXPECT_EQ(change(1.0, 1.0), "0\u00A0%");
   EXPECT_EQ(change(1.0, 0.9999), "0\u00A0%");

@@ -56,6 +56,21 @@ TEST(WherePage, SaysWhereRadiiComeFrom) {
   EXPECT_THAT(report_html(report, {}), HasSubstr("95 %: the poses follow each other along a path &amp; more.</p>"));
 }
 
+TEST(WherePage, NamesTheStagesThatErrorsAreOf) {
+  Report report = with_measured_poses(made_up_report(), 40);
+  const auto said = [&report] { return words_of(report_html(report, {})); };
+  EXPECT_THAT(said(),
+              HasSubstr("are the same, those of the stage “with joint corrections”: no effect was added to it."));
+  report.method = "structural";
+  EXPECT_THAT(said(), HasSubstr("those of the stage “with the structure found”"));
+  report.method = "direct";
+  report.rounds.resize(1);
+  report.rounds[0].verdict = "added";
+  EXPECT_THAT(said(),
+              HasSubstr("Errors before are those of the stage “with joint corrections”, those after of “with the "
+                        "effects found”."));
+}
+
 TEST(WherePage, CountsPosesAndNotTheTargetsThatMeasuredThem) {
   Report report = made_up_report();
   report.poses.calibration = 120;

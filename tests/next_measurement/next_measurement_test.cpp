@@ -281,5 +281,12 @@ TEST(NextMeasurement, IsNothingWithoutRivalsOrForAnEffectThatDoesNothing) {
   EXPECT_TRUE(find_next_measurement(problem, model, effect("gain", 2, {}, {1e-4}), {rival}, RandomStream{1}));
 }
 
+TEST(EffectWords, NameUnknownMassesByTheirLinks) {
+  Effect bending{.kind = "link_bending", .joint = 0, .settings = {{"keep_6_mx", 1.0}}, .form = "moments"};
+  EXPECT_EQ(to_string(bending), "link bending of joint 1 (moments of link 6 along x)");
+  bending.settings["keep_7_mx"] = 1.0;
+  EXPECT_EQ(to_string(bending), "link bending of joint 1 (moments of links 6 to 7)");
+}
+
 }  // namespace
 }  // namespace demecal

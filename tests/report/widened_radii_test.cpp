@@ -65,7 +65,7 @@ TEST(Evaluation, WidensRadiiByPayloadsAndGapsThatWereNotMeasuredAndSaysSo) {
   EXPECT_THAT(pose_errors(beyond, model, model.robot, nullptr)[0].flags, ElementsAre("outside_measured"));
   EXPECT_THAT(said(within), IsEmpty());
   EXPECT_THAT(said(beyond),
-              ElementsAre("1 of the 1 measurements lie outside of what the model was measured at, and their radii are "
+              ElementsAre("1 of the 1 measurements lies outside of what the model was measured at, and its radius is "
                           "widened by judgement: payload at 20 kg, measured 0 .. 5 kg."));
   model.measured_gaps = {{1, {{0.0, 0.7}}}};
   EXPECT_GT(radius_mm(within), 1.1 * known_mm);
