@@ -184,7 +184,7 @@ std::string summary_table(const CorrectedProgram& corrected, const Chain& arm) {
     text += block(corrected.program, corrected.program.targets[i], corrected.targets[i], arm, last_heading);
   }
   const MovedFigures figures = moved_figures(corrected);
-  text += fmt::format("{} targets corrected", figures.targets);
+  text += counted(static_cast<std::size_t>(figures.targets), "target") + " corrected";
   if (figures.targets > 0)
     text +=
         fmt::format("; the tool is moved by {:.4f} mm in the mean, {:.4f} mm at most", figures.mean_mm, figures.max_mm);

@@ -154,7 +154,7 @@ TEST(Correction, ThatIsNotDeterminedCountsAsNone) {
   EXPECT_EQ(figures.targets, 1);
   EXPECT_EQ(figures.undetermined, 2);
   const std::string table = summary_table(corrected, nominal.chain), json = summary_json(corrected, nominal.chain);
-  EXPECT_NE(table.find("1 targets corrected"), std::string::npos) << table;
+  EXPECT_NE(table.find("1 target corrected"), std::string::npos) << table;
   EXPECT_NE(table.find("2 left as programmed, since the calibration does not determine"), std::string::npos) << table;
   EXPECT_NE(json.find("\"corrected_by_model\":false"), std::string::npos) << json;
   EXPECT_NE(json.find("\"left\":2"), std::string::npos) << json;

@@ -225,7 +225,7 @@ TEST(Summary, ShowsNominalCorrectedAndDifference) {
   const std::string table = summary_table(corrected, model.nominal.chain);
   EXPECT_THAT(table, HasSubstr("28.6479"));
   EXPECT_THAT(table, HasSubstr(listed({&change_deg, 1}, 4)));
-  EXPECT_THAT(table, HasSubstr("1 targets corrected"));
+  EXPECT_THAT(table, HasSubstr("1 target corrected"));
   const std::string json = summary_json(corrected, model.nominal.chain);
   EXPECT_EQ(std::count(json.begin(), json.end(), '\n'), 1);
   EXPECT_THAT(json, HasSubstr("\"nominal\":[17.188"));
