@@ -110,7 +110,8 @@ void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain,
   }
 }
 
-void check_repeats(std::span<const MeasuredPose> poses, const std::string& file) {
+void check_repeats(std::span<const MeasuredPose> poses, const std::string& file, bool joined) {
+  constexpr double kFarthest_m = 5e-3;  ///< that no arm repeats worse than
   std::map<std::string, const MeasuredPose*> first;
   for (const MeasuredPose& pose : poses) {
     const auto [entry, is_first] = first.emplace(pose.pose_id, &pose);
@@ -124,6 +125,14 @@ void check_repeats(std::span<const MeasuredPose> poses, const std::string& file)
       throw InputError({file, pose.line}, pose.pose_id,
                        "is in another set than line " + std::to_string(other.line) + ", which has the same pose id");
     }
+    if (!joined || !pose.position_m || !other.position_m || pose.target != other.target) continue;
+    const double apart_m = (*pose.position_m - *other.position_m).norm();
+    if (apart_m > kFarthest_m)
+      throw InputError({file, pose.line}, pose.pose_id,
+                       "was measured " + number_text(std::round(millimetres(apart_m))) + " mm from the point of line " +
+                           std::to_string(other.line) +
+                           ", which has the same name: repeats of one pose are not so far apart. Correct the name of "
+                           "the one that is another point, or take it out");
   }
 }
 

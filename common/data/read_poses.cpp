@@ -13,6 +13,7 @@
 
 #include "data/columns.hpp"
 #include "data/payload.hpp"
+#include "data/repeated_names.hpp"
 #include "data/text.hpp"
 #include "errors/input_error.hpp"
 #include "kinematics/units.hpp"
@@ -251,15 +252,6 @@ MeasuredPose read_pose(const FoundColumns& columns, const PoseRows& rows) {
   return pose;
 }
 
-/// Rows at equal joints, in one set, are repeats of one pose where nothing names poses.
-void name_repeats(std::vector<MeasuredPose>& poses) {
-  std::map<std::pair<PoseSet, std::vector<double>>, std::string> first;
-  for (MeasuredPose& pose : poses) {
-    const std::vector<double> joints(pose.joints.begin(), pose.joints.end());
-    pose.pose_id = first.try_emplace({pose.set, joints}, pose.pose_id).first->second;
-  }
-}
-
 }  // namespace
 
 Quantity joint_quantity(const Joint& joint) {
@@ -288,7 +280,12 @@ std::vector<MeasuredPose> read_poses(const JoinedTables& joined, const ColumnMap
   if (!columns.pose) name_repeats(poses);
   check_targets(poses, tools_m, joined.tables[joined.main].file);
   if (columns.contact) require_something_measured(poses, *columns.contact, joined.tables[joined.main].file);
-  check_repeats(poses, joined.tables[joined.main].file);
+  if (joined.tables.size() == 1 || columns.position.empty()) {
+    check_repeats(poses, joined.tables[joined.main].file);
+  } else {
+    const std::size_t measured = columns.position.front().table;
+    check_repeats(in_lines_of(measured, joined, poses), joined.tables[measured].file, true);
+  }
   return poses;
 }
 

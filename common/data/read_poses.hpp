@@ -34,7 +34,9 @@ void check_joint_limits(std::span<const MeasuredPose> poses, const Chain& chain,
 void require_something_measured(std::span<const MeasuredPose> poses, const ColumnName& contact,
                                 const std::string& file);
 /// Poses of one id have equal joints and serve one set: otherwise validation would judge what calibration has seen.
-void check_repeats(std::span<const MeasuredPose> poses, const std::string& file);
+/// `joined`: from several files. Measured points of one name then share a row of joints whatever was measured, so that
+/// only their distance tells whether they are one pose.
+void check_repeats(std::span<const MeasuredPose> poses, const std::string& file, bool joined = false);
 
 /// Rows of several tables that belong together, one of each.
 struct JoinedTables {

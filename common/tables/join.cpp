@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "data/text.hpp"
@@ -34,11 +35,26 @@ std::map<std::string, std::size_t> rows_by_name(const CsvTable& table, const Joi
   return rows;
 }
 
+/// " 'P11' stands there twice, on lines 15 and 42: is one of these the point?" Of the first such name; empty where
+/// there is none.
+std::string name_that_stands_twice(const CsvTable& table, const std::vector<std::string>& names) {
+  std::map<std::string, std::size_t> first;
+  for (std::size_t row = 0; row < names.size(); ++row) {
+    const auto [entry, fresh] = first.emplace(names[row], row);
+    if (fresh) continue;
+    return " '" + names[row] + "' stands there twice, on lines " + std::to_string(table.rows[entry->second].line) +
+           " and " + std::to_string(table.rows[row].line) + ": is one of these the point?";
+  }
+  return {};
+}
+
 [[noreturn]] void fail_without_partner(const CsvTable& table, std::size_t row, const std::string& name,
                                        const CsvTable& other, std::vector<std::string> names) {
+  const std::string twice = name_that_stands_twice(other, names);
   throw InputError({table.file, table.rows[row].line}, name,
                    "is the name of no point of " + other.file + "; the nearest is '" + nearest_name(name, names) +
-                       "'. Every row needs a partner: take this one out, or state `join: {by: name, unmatched: "
+                       "'." + twice +
+                       " Every row needs a partner: take this one out, or state `join: {by: name, unmatched: "
                        "leave_out}` in the data set's file (`demecal template dataset --for` these files writes it)");
 }
 
@@ -51,6 +67,31 @@ void require_used(const std::vector<CsvTable>& tables, const std::vector<JoinKey
     const std::string& name = keys[other].names[row];
     if (!measured.contains(name)) fail_without_partner(tables[other], row, name, tables[lead], keys[lead].names);
   }
+}
+
+/// A row that the join leaves out: "'P12' (joints.csv:13)".
+std::string row_text(const CsvTable& table, const JoinKeys& keys, std::size_t row) {
+  return "'" + keys.names[row] + "' (" + table.file + ":" + std::to_string(table.rows[row].line) + ")";
+}
+
+/// The rows of other tables that no row of the leading one names.
+std::vector<std::string> not_measured(const std::vector<CsvTable>& tables, const std::vector<JoinKeys>& keys,
+                                      std::size_t lead) {
+  const std::set<std::string> measured(keys[lead].names.begin(), keys[lead].names.end());
+  std::vector<std::string> rows;
+  for (std::size_t other = 0; other < tables.size(); ++other)
+    for (std::size_t row = 0; row < keys[other].names.size(); ++row)
+      if (other != lead && !measured.contains(keys[other].names[row]))
+        rows.push_back(row_text(tables[other], keys[other], row));
+  return rows;
+}
+
+/// ": 'P12' (joints.csv:13), ..."; of many the first.
+std::string listed_rows(const std::vector<std::string>& rows) {
+  constexpr std::size_t kMost = 5;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(rows.size(), kMost); ++i) text += (i == 0 ? ": " : ", ") + rows[i];
+  return rows.size() > kMost ? text + ", ..." : text;
 }
 
 std::string no_partner_text(std::size_t rows) {
@@ -95,12 +136,17 @@ JoinedRows join_by_name(const std::vector<CsvTable>& tables, const std::vector<J
     }
     if (unmatched == Unmatched::refuse) require_used(tables, keys, lead, other);
   }
-  const std::size_t left_out =
-      std::erase_if(joined.rows, [](const auto& pose) { return std::ranges::find(pose, kNone) != pose.end(); });
+  std::vector<std::string> left_out = not_measured(tables, keys, lead);
+  std::erase_if(joined.rows, [&](const auto& pose) {
+    const bool alone = std::ranges::find(pose, kNone) != pose.end();
+    if (alone) left_out.push_back(row_text(tables[lead], keys[lead], pose[lead]));
+    return alone;
+  });
   if (joined.rows.empty())
     throw InputError({tables[lead].file, 0}, "",
                      "names no point that the other files name: are they of one measurement?");
-  joined.sentence = std::to_string(joined.rows.size()) + " rows joined by name" + no_partner_text(left_out);
+  joined.sentence = std::to_string(joined.rows.size()) + " rows joined by name" + no_partner_text(left_out.size()) +
+                    listed_rows(left_out);
   return joined;
 }
 

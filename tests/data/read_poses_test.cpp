@@ -247,5 +247,21 @@ TEST(ReadPoses, RefusesUncertaintiesThatAreNone) {
   EXPECT_THAT(refusal(kHeading + ",s_mm\n90,-45,100,1,2,3,1\n", map), HasSubstr("is the uncertainty of a position"));
 }
 
+TEST(CheckRepeats, RefusesPointsOfOneNameThatLieApartInJoinedFiles) {
+  std::vector<MeasuredPose> poses(2);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    poses[i].pose_id = "P11";
+    poses[i].line = 15 + 27 * i;
+    poses[i].joints = JointVector::Zero(6);
+    poses[i].position_m = Eigen::Vector3d(i == 0 ? 0.0 : 0.941, 0.2, 0.3);
+  }
+  check_repeats(poses, "tracker.txt");
+  EXPECT_THAT(
+      complaint([&] { check_repeats(poses, "tracker.txt", true); }),
+      HasSubstr("tracker.txt:42: 'P11': was measured 941 mm from the point of line 15, which has the same name"));
+  poses[1].position_m->x() = 1e-3;
+  check_repeats(poses, "tracker.txt", true);
+}
+
 }  // namespace
 }  // namespace demecal

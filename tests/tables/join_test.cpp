@@ -71,6 +71,17 @@ TEST(JoinByName, RefusesTheFirstRowWithoutAPartnerOrLeavesItOut) {
               HasSubstr("j.csv:4: 'P2': names the point of line 3 again"));
 }
 
+TEST(JoinByName, NamesThePointThatStandsTwiceWhereOneIsMissing) {
+  NamedPair pair{{table_of_rows("m.txt", 3), table_of_rows("j.csv", 3)}};
+  pair.keys[0].names = {"P11", "P7", "P11"};
+  pair.keys[1].names = {"P7", "P11", "P12"};
+  EXPECT_THAT(complaint([&] { join_by_name(pair.tables, pair.keys, 0, Unmatched::refuse); }),
+              HasSubstr("'P12': is the name of no point of m.txt; the nearest is 'P11'. 'P11' stands there twice, on "
+                        "lines 2 and 4: is one of these the point?"));
+  EXPECT_EQ(join_by_name(pair.tables, pair.keys, 0, Unmatched::leave_out).sentence,
+            "3 rows joined by name; 1 row has no partner and is left out: 'P12' (j.csv:4)");
+}
+
 TEST(JoinByOrder, RefusesTheFirstRowTooMany) {
   const std::vector<CsvTable> tables{table_of_rows("m.txt", 4), table_of_rows("j.csv", 3)};
   EXPECT_THAT(complaint([&] { join_by_order(tables, 0); }), HasSubstr("m.txt:5: is row 4, but j.csv has only 3"));
