@@ -217,9 +217,7 @@ class ChangeSearch {
   ChangeRows refit(Linearised& at, std::vector<ChangeCause>& found) {
     constexpr int kMostRounds = 5;
     constexpr double kWorth = 0.99;
-    const auto amounts_at = [&](const ChangeRows& rows) {
-      return amounts_on(columns_of(found, rows, effects_), rows.values, known_rows_);
-    };
+    const auto amounts_at = [&](const ChangeRows& rows) { return amounts_on(found, rows, effects_, known_rows_); };
     ChangeAmounts amounts = amounts_at(at.rows);
     at.taken_in.conservativeResizeLike(Eigen::VectorXd::Zero(amounts.values.size()));
     set_amounts(at.taken_in + amounts.values, amounts.variances, data_.robot, found);
@@ -241,12 +239,7 @@ class ChangeSearch {
       amounts = amounts_at(at.rows);
       set_amounts(at.taken_in + amounts.values, amounts.variances, data_.robot, found);
     }
-    ChangeRows rows = at.rows;
-    rows.values -= amounts.basis * (amounts.basis.transpose() * rows.values).eval();
-    for (Eigen::MatrixXd& columns : rows.columns)
-      columns -= amounts.basis * (amounts.basis.transpose() * columns).eval();
-    for (const ChangeCause& cause : found) rows.columns[place_of(cause.effect, effects_)].setZero();
-    return rows;
+    return left_by(found, amounts, at.rows, effects_);
   }
 
   /// A base that was found before they were is found again.

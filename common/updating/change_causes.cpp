@@ -50,20 +50,22 @@ Eigen::VectorXd variances_by(const Eigen::MatrixXd& columns, double variance) {
   return variance * moore_penrose_inverse(columns.transpose() * columns).inverse.diagonal();
 }
 
-/// Columns that those before them leave something of.
-std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& columns) {
-  constexpr double kLeastShare = 1e-4;
-  std::vector<Eigen::Index> kept;
-  Eigen::MatrixXd basis(columns.rows(), 0);
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    Eigen::VectorXd rest = columns.col(i);
-    for (int twice = 0; twice < 2; ++twice) rest -= basis * (basis.transpose() * rest).eval();
-    if (!(rest.norm() > kLeastShare * columns.col(i).norm())) continue;
-    kept.push_back(i);
-    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-    basis.rightCols(1) = rest.normalized();
-  }
-  return kept;
+/// What `basis` leaves of columns.
+Eigen::MatrixXd beyond(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& columns) {
+  return columns - basis * (basis.transpose() * columns).eval();
+}
+
+/// Changes of a cause's coefficients (columns) of which its columns become orthonormal, and which stay apart from what
+/// `basis` spans: by the sine of the angle to it, so that no unit of a coefficient matters.
+Eigen::MatrixXd told_apart(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
+  constexpr double kLeastShare = 1e-4, kLeastSine = 0.03;
+  Eigen::VectorXd scale = columns.colwise().norm();
+  scale = (scale.array() > 0.0).select(scale.array().inverse(), 0.0);
+  const Eigen::MatrixXd orthonormal =
+      scale.asDiagonal() * PivotedQr(columns * scale.asDiagonal(), kLeastShare).to_basis();
+  if (basis.cols() == 0 || orthonormal.cols() == 0) return orthonormal;
+  const SingularSystem sines = singular_system(beyond(basis, columns * orthonormal), Eigen::ComputeThinV);
+  return orthonormal * sines.v.leftCols((sines.values.array() >= kLeastSine).count());
 }
 
 /// Whether a move of the tool does to these poses what a joint's zero does: that of the last joint turns the tool
@@ -73,13 +75,13 @@ bool makes_up_for(const Effect& tool, const Effect& zero, const ChangeRows& rows
   if (law_of(tool).subject() != Subject::tool || declared_flag(zero.kind) != &DeclaredModel::joint_offset) return false;
   const Eigen::MatrixXd basis = PivotedQr(rows.columns[place_of(tool, trial.effects)]).basis();
   const Eigen::MatrixXd& column = rows.columns[place_of(zero, trial.effects)];
-  return (column - basis * (basis.transpose() * column).eval()).norm() < kNothing * column.norm();
+  return beyond(basis, column).norm() < kNothing * column.norm();
 }
 
 }  // namespace
 
 std::vector<ChangeCause> tested_causes(const ChangeRows& rows, const CauseTrial& trial) {
-  constexpr double kSeen = 1.0, kAsLikely = 6.0;
+  constexpr double kSeen = 1.0, kAsLikely = 6.0, kDependent = 1e-9;
   const double n = static_cast<double>(rows.values.size()), whole = rows.values.squaredNorm();
   struct Scored {
     double length;
@@ -89,7 +91,7 @@ std::vector<ChangeCause> tested_causes(const ChangeRows& rows, const CauseTrial&
   for (std::size_t i = 0; i < trial.effects.size(); ++i) {
     const Eigen::MatrixXd& columns = rows.columns[i];
     if (columns.norm() < kSeen || columns.cols() + 2 > columns.rows()) continue;
-    const PivotedQr qr(columns);
+    const PivotedQr qr(columns, kDependent);
     const auto rank = static_cast<double>(qr.rank());
     ChangeCause cause;
     cause.effect = trial.effects[i];
@@ -123,27 +125,40 @@ std::size_t place_of(const Effect& effect, const std::vector<Effect>& effects) {
       std::ranges::find_if(effects, [&](const Effect& one) { return one.same_law_as(effect); }) - effects.begin());
 }
 
-Eigen::MatrixXd columns_of(const std::vector<ChangeCause>& found, const ChangeRows& rows,
-                           const std::vector<Effect>& effects) {
-  Eigen::MatrixXd all(rows.values.size(), 0);
+ChangeAmounts amounts_on(const std::vector<ChangeCause>& found, const ChangeRows& rows,
+                         const std::vector<Effect>& effects, double known_rows) {
+  const Eigen::Index n = rows.values.size();
+  Eigen::MatrixXd told(n, 0), by_told(0, 0);
+  ChangeAmounts amounts{{}, {}, Eigen::MatrixXd(n, 0)};
   for (const ChangeCause& cause : found) {
     const Eigen::MatrixXd& own = rows.columns[place_of(cause.effect, effects)];
-    all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
-    all.rightCols(own.cols()) = own;
+    const Eigen::MatrixXd directions = told_apart(own, amounts.basis);
+    told.conservativeResize(Eigen::NoChange, told.cols() + directions.cols());
+    told.rightCols(directions.cols()) = own * directions;
+    by_told.conservativeResizeLike(Eigen::MatrixXd::Zero(by_told.rows() + directions.rows(), told.cols()));
+    by_told.bottomRightCorner(directions.rows(), directions.cols()) = directions;
+    amounts.basis = PivotedQr(told).basis();
   }
-  return all;
+  const Eigen::VectorXd sizes = least_squares_solution(told, rows.values);
+  amounts.values = by_told * sizes;
+  amounts.left = (rows.values - told * sizes).squaredNorm();
+  const double freedom = known_rows + static_cast<double>(n - told.cols());
+  const Eigen::MatrixXd inverse = moore_penrose_inverse(told.transpose() * told).inverse;
+  amounts.variances = (known_rows + amounts.left) / freedom * (by_told * inverse).cwiseProduct(by_told).rowwise().sum();
+  return amounts;
 }
 
-ChangeAmounts amounts_on(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values, double known_rows) {
-  const std::vector<Eigen::Index> kept = independent_columns(columns);
-  const Eigen::MatrixXd independent = columns(Eigen::all, kept);
-  ChangeAmounts amounts{Eigen::VectorXd::Zero(columns.cols()), Eigen::VectorXd::Zero(columns.cols()),
-                        PivotedQr(independent).basis()};
-  amounts.values(kept) = least_squares_solution(independent, values);
-  amounts.left = (values - columns * amounts.values).squaredNorm();
-  const double freedom = known_rows + static_cast<double>(values.size()) - static_cast<double>(kept.size());
-  amounts.variances(kept) = variances_by(independent, (known_rows + amounts.left) / freedom);
-  return amounts;
+ChangeRows left_by(const std::vector<ChangeCause>& found, const ChangeAmounts& amounts, const ChangeRows& rows,
+                   const std::vector<Effect>& effects) {
+  ChangeRows left = rows;
+  left.values = beyond(amounts.basis, rows.values);
+  for (Eigen::MatrixXd& columns : left.columns) {
+    const Eigen::MatrixXd directions = told_apart(columns, amounts.basis);
+    const Eigen::MatrixXd orthonormal = columns * directions;
+    columns = beyond(amounts.basis, orthonormal) * (orthonormal.transpose() * columns);
+  }
+  for (const ChangeCause& cause : found) left.columns[place_of(cause.effect, effects)].setZero();
+  return left;
 }
 
 void set_amounts(const Eigen::VectorXd& values, const Eigen::VectorXd& variances, const Robot& robot,
