@@ -15,6 +15,7 @@
 namespace demecal::inline updating {
 namespace {
 
+constexpr double kDependent = 1e-6;       ///< share of a column that is rounding
 constexpr double kFound = 1.645 + 1.282;  ///< one-sided at 5 %, nine times in ten
 
 double usual_size(const std::string& unit) {
@@ -47,7 +48,7 @@ void fill_size(const Eigen::VectorXd& variances, const Robot& robot, ChangeCause
 }
 
 Eigen::VectorXd variances_by(const Eigen::MatrixXd& columns, double variance) {
-  return variance * moore_penrose_inverse(columns.transpose() * columns).inverse.diagonal();
+  return variance * moore_penrose_inverse(columns.transpose() * columns, kDependent * kDependent).inverse.diagonal();
 }
 
 /// What `basis` leaves of columns.
@@ -55,17 +56,28 @@ Eigen::MatrixXd beyond(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& colu
   return columns - basis * (basis.transpose() * columns).eval();
 }
 
-/// Changes of a cause's coefficients (columns) of which its columns become orthonormal, and which stay apart from what
+/// Changes of a cause's coefficients that poses tell.
+struct ToldChanges {
+  Eigen::MatrixXd directions;        ///< by which its columns become orthonormal
+  Eigen::VectorXd untold_variances;  ///< of its coefficients, by what is hardly told and left as it is; of unit noise
+};
+
+/// Those that these poses do not tell much less well than others of the same cause, and that stay apart from what
 /// `basis` spans: by the sine of the angle to it, so that no unit of a coefficient matters.
-Eigen::MatrixXd told_apart(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
-  constexpr double kLeastShare = 1e-4, kLeastSine = 0.03;
-  Eigen::VectorXd scale = columns.colwise().norm();
-  scale = (scale.array() > 0.0).select(scale.array().inverse(), 0.0);
-  const Eigen::MatrixXd orthonormal =
-      scale.asDiagonal() * PivotedQr(columns * scale.asDiagonal(), kLeastShare).to_basis();
-  if (basis.cols() == 0 || orthonormal.cols() == 0) return orthonormal;
-  const SingularSystem sines = singular_system(beyond(basis, columns * orthonormal), Eigen::ComputeThinV);
-  return orthonormal * sines.v.leftCols((sines.values.array() >= kLeastSine).count());
+ToldChanges told_apart(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
+  constexpr double kLeastShare = 0.01, kLeastSine = 0.03, kNothing = 1e-4;
+  const SingularSystem own = singular_system(columns, Eigen::ComputeThinV);
+  const double most = own.values.size() > 0 ? own.values[0] : 0.0;
+  ToldChanges told{Eigen::MatrixXd(columns.cols(), 0), Eigen::VectorXd::Zero(columns.cols())};
+  if (!(most > 0.0)) return told;
+  const Eigen::Index count = (own.values.array() >= kLeastShare * most).count();
+  for (Eigen::Index i = count; i < own.values.size() && own.values[i] > kNothing * most; ++i)
+    told.untold_variances += (own.v.col(i) / own.values[i]).cwiseAbs2();
+  told.directions = own.v.leftCols(count) * own.values.head(count).cwiseInverse().asDiagonal();
+  if (basis.cols() == 0) return told;
+  const SingularSystem sines = singular_system(beyond(basis, columns * told.directions), Eigen::ComputeThinV);
+  told.directions *= sines.v.leftCols((sines.values.array() >= kLeastSine).count()).eval();
+  return told;
 }
 
 /// Whether a move of the tool does to these poses what a joint's zero does: that of the last joint turns the tool
@@ -81,7 +93,7 @@ bool makes_up_for(const Effect& tool, const Effect& zero, const ChangeRows& rows
 }  // namespace
 
 std::vector<ChangeCause> tested_causes(const ChangeRows& rows, const CauseTrial& trial) {
-  constexpr double kSeen = 1.0, kAsLikely = 6.0, kDependent = 1e-9;
+  constexpr double kSeen = 1.0, kAsLikely = 6.0;
   const double n = static_cast<double>(rows.values.size()), whole = rows.values.squaredNorm();
   struct Scored {
     double length;
@@ -129,10 +141,13 @@ ChangeAmounts amounts_on(const std::vector<ChangeCause>& found, const ChangeRows
                          const std::vector<Effect>& effects, double known_rows) {
   const Eigen::Index n = rows.values.size();
   Eigen::MatrixXd told(n, 0), by_told(0, 0);
+  Eigen::VectorXd untold(0);
   ChangeAmounts amounts{{}, {}, Eigen::MatrixXd(n, 0)};
   for (const ChangeCause& cause : found) {
     const Eigen::MatrixXd& own = rows.columns[place_of(cause.effect, effects)];
-    const Eigen::MatrixXd directions = told_apart(own, amounts.basis);
+    const auto [directions, untold_variances] = told_apart(own, amounts.basis);
+    untold.conservativeResize(untold.size() + own.cols());
+    untold.tail(own.cols()) = untold_variances;
     told.conservativeResize(Eigen::NoChange, told.cols() + directions.cols());
     told.rightCols(directions.cols()) = own * directions;
     by_told.conservativeResizeLike(Eigen::MatrixXd::Zero(by_told.rows() + directions.rows(), told.cols()));
@@ -144,7 +159,8 @@ ChangeAmounts amounts_on(const std::vector<ChangeCause>& found, const ChangeRows
   amounts.left = (rows.values - told * sizes).squaredNorm();
   const double freedom = known_rows + static_cast<double>(n - told.cols());
   const Eigen::MatrixXd inverse = moore_penrose_inverse(told.transpose() * told).inverse;
-  amounts.variances = (known_rows + amounts.left) / freedom * (by_told * inverse).cwiseProduct(by_told).rowwise().sum();
+  amounts.variances =
+      (known_rows + amounts.left) / freedom * (untold + (by_told * inverse).cwiseProduct(by_told).rowwise().sum());
   return amounts;
 }
 
@@ -153,8 +169,7 @@ ChangeRows left_by(const std::vector<ChangeCause>& found, const ChangeAmounts& a
   ChangeRows left = rows;
   left.values = beyond(amounts.basis, rows.values);
   for (Eigen::MatrixXd& columns : left.columns) {
-    const Eigen::MatrixXd directions = told_apart(columns, amounts.basis);
-    const Eigen::MatrixXd orthonormal = columns * directions;
+    const Eigen::MatrixXd orthonormal = columns * told_apart(columns, amounts.basis).directions;
     columns = beyond(amounts.basis, orthonormal) * (orthonormal.transpose() * columns);
   }
   for (const ChangeCause& cause : found) left.columns[place_of(cause.effect, effects)].setZero();

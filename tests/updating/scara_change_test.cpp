@@ -102,6 +102,22 @@ TEST(ScaraChange, OfALinkIsNoMoveByMetres) {
   }
 }
 
+TEST(ScaraChange, OfTheToolBesideABaseFoundAnewIsWhatThePosesTellOfIt) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    CorrectedRobot now = true_scara(seed);
+    now.sensor_from_base.translation() += Eigen::Vector3d(0.3, -0.2, 0.003);
+    now.tools.at("").translation() += Eigen::Vector3d(4e-3, -2.3e-3, 1.5e-3);
+    const ChangeReport report = find_change(model_of_scara(seed), measured_scara(now, 15, 0, 1600 + seed));
+    EXPECT_TRUE(report.set_up_anew);
+    ASSERT_EQ(report.found.size(), 1U) << seed << ": " << text_of(report);
+    const ChangeCause& tool = report.found.front();
+    ASSERT_EQ(declared_flag(tool.effect.kind), &DeclaredModel::tool) << seed << ": " << text_of(report);
+    EXPECT_NEAR(std::hypot(tool.effect.values[0], tool.effect.values[1]), 4.6e-3, 2e-4) << seed;
+    EXPECT_LT(std::abs(tool.effect.values[2]), 1e-3) << seed << ": along the axes the base makes up for it";
+    EXPECT_GT(tool.standard_error, 1e-3) << seed;
+  }
+}
+
 TEST(ScaraChange, OfAZeroOrTheToolIsNamedInFull) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const CalibratedModel model = model_of_scara(seed);
