@@ -102,6 +102,48 @@ TEST(ScaraChange, OfALinkIsNoMoveByMetres) {
   }
 }
 
+/// A target on the last axis, which a turn of that joint moves to first order only.
+CorrectedRobot on_last_axis(CorrectedRobot robot, double off_axis_m) {
+  robot.tools.at("").translation() = Eigen::Vector3d(off_axis_m, 0.0, 0.04);
+  return robot;
+}
+
+TEST(ScaraChange, IsNamedByWhatTheRobotReallyDoesAndNotToFirstOrder) {
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const CorrectedRobot before = on_last_axis(true_scara(seed), 0.0);
+    const CalibratedModel model = model_of_wrist(measured_scara(before, 60, 20, seed));
+    CorrectedRobot tilted = before;
+    tilted.chain.joints[3].alpha_rad += radians(1.2);
+    const ChangeReport report = find_change(model, measured_scara(tilted, 14, 0, 1400 + seed));
+    ASSERT_EQ(report.found.size(), 1U) << seed << ": " << text_of(report);
+    EXPECT_EQ(declared_flag(report.found.front().effect.kind), &DeclaredModel::tool) << seed << ": " << text_of(report);
+    EXPECT_FALSE(report.more || report.unnamed) << seed << ": " << text_of(report);
+  }
+}
+
+TEST(ScaraChange, OfALinkIsNothingByWhichTheRobotErrsMore) {
+  int unnamed = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    for (const double off_axis_m : {0.0, 5e-4}) {
+      const CorrectedRobot before = on_last_axis(true_scara(seed), off_axis_m);
+      const CalibratedModel model = model_of_wrist(measured_scara(before, 60, 20, seed));
+      for (const double a_m : {4.5e-4, 1.5e-3, 4.5e-3, 3e-2}) {
+        CorrectedRobot bent = before;
+        bent.chain.joints[1].a_m += a_m;
+        const ChangeReport report = find_change(model, measured_scara(bent, 14, 0, 1500 + seed));
+        EXPECT_EQ(report.verdict, ChangeVerdict::changed);
+        if (!report.found.empty()) {
+          EXPECT_LT(report.left_m, report.error_m) << seed << ": " << text_of(report);
+        }
+        for (const ChangeCause& cause : report.found)
+          EXPECT_LT(std::abs(cause.size), 0.1) << seed << ": " << text_of(report);
+        unnamed += report.unnamed ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GE(unnamed, 40) << "of 48";
+}
+
 TEST(ScaraChange, OfTheToolBesideABaseFoundAnewIsWhatThePosesTellOfIt) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     CorrectedRobot now = true_scara(seed);
