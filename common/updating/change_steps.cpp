@@ -31,8 +31,10 @@ bool really_leaves_less(const ChangeStep& step, double before_m) {
 }
 
 std::size_t named_step(const std::vector<ChangeStep>& steps, const ExpectedErrors& expected) {
-  constexpr double kFar = 1.5, kMost = 0.5;
-  const std::size_t last = steps.size() - 1;
+  constexpr double kFar = 1.5, kMost = 0.5, kLittle = 0.75;
+  std::size_t last = steps.size() - 1;
+  if (steps[last].strain > expected.strain_limit)
+    while (last > 0 && steps[last].strain > kLittle * steps[last].strain_before) --last;
   const ChangeStep &none = steps.front(), &named = steps[last];
   const double far = kFar * expected.strain_limit, far_m = far * expected.rms_m;
   const bool strained = named.strain >= far && named.strain >= kMost * none.strain;

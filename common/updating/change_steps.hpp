@@ -34,8 +34,9 @@ struct ExpectedErrors {
   double rms_m = 0.0;         ///< of the tool's errors
 };
 
-/// The step whose causes are named, the first being that of none. Where most is left of errors that are far beyond the
-/// limit, none is: a joint's sign, or rows of two sets, look like a little of everything.
+/// The step whose causes are named, the first being that of none. Where errors beyond the limit are left, a cause that
+/// lowered them by less than a quarter is not; where most is left of errors that are far beyond it, none is: a joint's
+/// sign, or rows of two sets, look like a little of everything.
 std::size_t named_step(const std::vector<ChangeStep>& steps, const ExpectedErrors& expected);
 
 /// By pose, what all causes together leave of its rows; empty where they are too few for that.
