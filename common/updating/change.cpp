@@ -18,6 +18,7 @@
 #include "random/distributions.hpp"
 #include "updating/change_causes.hpp"
 #include "updating/change_rows.hpp"
+#include "updating/change_steps.hpp"
 #include "updating/changed_zeros.hpp"
 #include "updating/expected_noise.hpp"
 #include "updating/joint_rounding.hpp"
@@ -67,7 +68,7 @@ class ChangeSearch {
     compare_orientations();
   }
 
-  bool set_up_anew() const { return report_.set_up_anew; }
+  bool base_was_found() const { return report_.set_up_anew; }
   ChangeReport run() {
     ScaledChangeRows scaled = scaled_rows(robot_);
     ChangeRows rows = whitened(scaled);
@@ -91,18 +92,12 @@ class ChangeSearch {
  private:
   /// Finds the base again where the data's frame is another one.
   void place(bool base_may_move) {
-    constexpr double kElsewhere_m = 5e-3;
     robot_ = model_.robot;
     robot_.described = data_.robot;
     if (!base_may_move) return;
-    std::vector<double> errors;
-    for (const std::size_t pose : poses_) errors.push_back(tool_error_m(robot_, data_, data_.poses[pose]));
-    if (median(errors) > kElsewhere_m && data_.frame == Frame::sensor) {
-      const Fit fit = fit_registration(data_, poses_, {.registration = true}, robot_);
-      if (fit.status == FitStatus::converged) {
-        robot_ = fit.robot;
-        report_.set_up_anew = true;
-      }
+    if (std::optional<CorrectedRobot> moved = set_up_anew(robot_, data_, poses_)) {
+      robot_ = std::move(*moved);
+      report_.set_up_anew = true;
     }
   }
 
@@ -126,16 +121,9 @@ class ChangeSearch {
   /// Whether any was.
   bool leave_out_gross(const ChangeRows& rows) {
     constexpr double kGross = 6.0;
-    Eigen::MatrixXd all(rows.values.size(), 0);
-    for (const Eigen::MatrixXd& columns : rows.columns) {
-      all.conservativeResize(Eigen::NoChange, all.cols() + columns.cols());
-      all.rightCols(columns.cols()) = columns;
-    }
-    if (all.cols() >= all.rows() / 2 || poses_.size() < 2 * kFewestTestedPoses) return false;
-    const Eigen::VectorXd left = rows.values - all * least_norm_solution(all, rows.values);
-    std::vector<double> norms;
-    for (std::size_t i = 0; i < poses_.size(); ++i)
-      norms.push_back(left.segment(rows.first_row[i], rows.first_row[i + 1] - rows.first_row[i]).norm());
+    if (poses_.size() < 2 * kFewestTestedPoses) return false;
+    const std::vector<double> norms = norms_beyond_causes(rows);
+    if (norms.empty()) return false;
     const double usual = std::max(1.0, median(norms));
     return leave_out([&](std::size_t i) { return norms[i] > kGross * usual; });
   }
@@ -170,46 +158,66 @@ class ChangeSearch {
 
   /// Finds the causes; returns the chance of as much as they leave by noise alone.
   double judge(const ChangeRows& all) {
-    ChangeRows rows = all;
     Linearised at{all, {}};
-    report_.found.clear();
     report_.verdict = ChangeVerdict::unchanged;
-    report_.unnamed = report_.more = false;
-    const auto n = static_cast<double>(rows.values.size());
-    report_.p_any = fisher_p_value(rows.values.squaredNorm() / n, n, known_rows_);
-    report_.strain = strain_of(rows);
+    const auto n = static_cast<double>(all.values.size());
+    report_.p_any = fisher_p_value(all.values.squaredNorm() / n, n, known_rows_);
+    report_.strain = strain_of(all);
     report_.strain_limit = std::sqrt(fisher_quantile(1.0 - kErrorOfAny, n, known_rows_));
     constexpr int kMostCauses = 3;
+    constexpr std::size_t kMostTried = 4;  // of each step: what the likeliest does may be so to first order only
+    std::vector<ChangeStep> steps{{{}, all, report_.strain, report_.strain, report_.error_m, orientation_rad_}};
     for (int step = 0; step < kMostCauses; ++step) {
-      std::vector<ChangeCause> causes = tested_causes(rows, {robot_, data_, poses_, effects_, known_rows_});
+      std::vector<ChangeCause> causes =
+          tested_causes(steps.back().left, {robot_, data_, poses_, effects_, known_rows_});
       if (causes.empty()) break;
       if (step == 0) report_.tried = causes;
-      if (causes.front().p_family >= (step == 0 && !report_.set_up_anew ? kError : kErrorOfFurther)) break;
-      report_.found.push_back(causes.front());
-      rows = refit(at, report_.found);
+      const double error = step == 0 && !report_.set_up_anew ? kError : kErrorOfFurther;
+      const std::size_t before = steps.size();
+      for (std::size_t i = 0; i < std::min(kMostTried, causes.size()) && steps.size() == before; ++i) {
+        if (causes[i].p_family >= error) break;
+        if (std::optional<ChangeStep> next = with_further(steps.back(), causes[i], at))
+          steps.push_back(std::move(*next));
+      }
+      if (steps.size() == before) break;
     }
-    report_.left_m = report_.found.empty() ? report_.error_m : rms_m(with_causes(report_.found));
-    if (!explains(rows, all)) report_.found.clear();
+    ChangeStep& last = steps[named_step(steps, {report_.strain_limit, all.expected_m})];
+    orientation_rad_ = last.orientation_rad;
+    report_.found = std::move(last.found);
+    report_.left_m = last.left_m;
     for (const ChangeCause& cause : report_.found)
       report_.verdict =
           std::max(report_.verdict, cause.is_registration ? ChangeVerdict::registration : ChangeVerdict::changed);
     if (report_.set_up_anew) report_.verdict = std::max(report_.verdict, ChangeVerdict::registration);
     report_.warmed = warmed_zeros(report_.found, report_.tried, robot_);
-    report_.more = !report_.found.empty() && strain_of(rows) > report_.strain_limit;
+    report_.more = !report_.found.empty() && last.strain > report_.strain_limit;
     report_.unnamed = report_.found.empty() && report_.p_any < kErrorOfAny;
-    if (report_.unnamed) report_.left_m = report_.error_m;
     if (report_.more || report_.unnamed) report_.verdict = ChangeVerdict::changed;
-    return fisher_p_value(rows.values.squaredNorm() / n, n, known_rows_);
+    return fisher_p_value(last.left.values.squaredNorm() / n, n, known_rows_);
   }
 
-  static double strain_of(const ChangeRows& rows) {
-    return std::sqrt(rows.values.squaredNorm() / static_cast<double>(rows.values.size()));
+  /// One cause more. None where the robot with it does not really leave less: what rows say of a large change, to
+  /// first order, need not be so.
+  std::optional<ChangeStep> with_further(const ChangeStep& before, const ChangeCause& cause, Linearised& at) {
+    ChangeStep next = before;
+    Linearised there = at;
+    next.found.push_back(cause);
+    next.left = refit(there, next.found);
+    next.orientation_rad = orientation_rad_;
+    next.strain = strain_by(next.found);
+    next.strain_before = orientation_rad_ == before.orientation_rad ? before.strain : strain_by(before.found);
+    next.left_m = rms_m(with_causes(next.found));
+    if (!really_leaves_less(next, before.left_m)) {
+      orientation_rad_ = before.orientation_rad;
+      return std::nullopt;
+    }
+    at = std::move(there);
+    return next;
   }
 
-  /// Whether the causes found are what happened: a joint's sign, or rows of two sets, look like a little of everything.
-  bool explains(const ChangeRows& left, const ChangeRows& all) const {
-    constexpr double kFar = 1.5, kMost = 0.5;
-    return strain_of(left) < kFar * report_.strain_limit || strain_of(left) < kMost * strain_of(all);
+  /// Of what the robot with these causes leaves.
+  double strain_by(const std::vector<ChangeCause>& found) const {
+    return strain_of(whitened(scaled_rows(with_causes(found))));
   }
 
   /// Takes the causes into the robot, and linearises there again while they explain more so: what they leave of the
@@ -217,9 +225,7 @@ class ChangeSearch {
   ChangeRows refit(Linearised& at, std::vector<ChangeCause>& found) {
     constexpr int kMostRounds = 5;
     constexpr double kWorth = 0.99;
-    const auto amounts_at = [&](const ChangeRows& rows) {
-      return amounts_on(columns_of(found, rows, effects_), rows.values, known_rows_);
-    };
+    const auto amounts_at = [&](const ChangeRows& rows) { return amounts_on(found, rows, effects_, known_rows_); };
     ChangeAmounts amounts = amounts_at(at.rows);
     at.taken_in.conservativeResizeLike(Eigen::VectorXd::Zero(amounts.values.size()));
     set_amounts(at.taken_in + amounts.values, amounts.variances, data_.robot, found);
@@ -241,12 +247,7 @@ class ChangeSearch {
       amounts = amounts_at(at.rows);
       set_amounts(at.taken_in + amounts.values, amounts.variances, data_.robot, found);
     }
-    ChangeRows rows = at.rows;
-    rows.values -= amounts.basis * (amounts.basis.transpose() * rows.values).eval();
-    for (Eigen::MatrixXd& columns : rows.columns)
-      columns -= amounts.basis * (amounts.basis.transpose() * columns).eval();
-    for (const ChangeCause& cause : found) rows.columns[place_of(cause.effect, effects_)].setZero();
-    return rows;
+    return left_by(found, amounts, at.rows, effects_);
   }
 
   /// A base that was found before they were is found again.
@@ -286,7 +287,7 @@ std::string_view to_string(ChangeVerdict verdict) {
 
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects) {
   ChangeSearch search(model, data, suspects, true);
-  if (search.set_up_anew()) {
+  if (search.base_was_found()) {
     // A zero that is off by degrees moves the tool as far: where it explains all, the base stands where it stood.
     ChangeReport with_old_base = ChangeSearch(model, data, suspects, false).run();
     if (explains_all(with_old_base)) return with_old_base;

@@ -76,12 +76,13 @@ struct ChangeReport {
 /// Holds the model's predictions against all poses of `data` that measured positions or distances, repeats of one as
 /// their mean; with orientations, where the model was fitted to such and these poses show how far they scatter. Errors
 /// by the model's covariance and its noise are expected; what explains more than 5 % of such samples would (of all
-/// causes tried) has changed. Causes are added one after another; where they leave most of errors that are far beyond
-/// what is expected, none is named; where they leave more than one unchanged robot in a thousand would, the robot has
-/// changed whatever they are. Poses of the names `suspects` are left out where they are a quarter at most. Where joints
-/// are written coarsely, and errors are left that nothing explains, their rounding counts as noise; so does what
-/// effects of the model may have done at poses that do not state what these depend on, and how far repeats lie apart
-/// where that is more than the model's noise. Throws InputError where the poses are too few, or are not of this arm.
+/// causes tried) has changed. Causes are added one after another, where the robot with them really errs less; where
+/// they leave most of errors that are far beyond what is expected, none is named; where they leave more than one
+/// unchanged robot in a thousand would, the robot has changed whatever they are. Poses of the names `suspects` are left
+/// out where they are a quarter at most. Where joints are written coarsely, and errors are left that nothing explains,
+/// their rounding counts as noise; so does what effects of the model may have done at poses that do not state what
+/// these depend on, and how far repeats lie apart where that is more than the model's noise. Throws InputError where
+/// the poses are too few, or are not of this arm.
 ChangeReport find_change(const CalibratedModel& model, const DataSet& data, const std::set<std::string>& suspects = {});
 
 }  // namespace demecal::inline updating

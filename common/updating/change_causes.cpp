@@ -15,6 +15,7 @@
 namespace demecal::inline updating {
 namespace {
 
+constexpr double kDependent = 1e-6;       ///< share of a column that is rounding
 constexpr double kFound = 1.645 + 1.282;  ///< one-sided at 5 %, nine times in ten
 
 double usual_size(const std::string& unit) {
@@ -47,23 +48,36 @@ void fill_size(const Eigen::VectorXd& variances, const Robot& robot, ChangeCause
 }
 
 Eigen::VectorXd variances_by(const Eigen::MatrixXd& columns, double variance) {
-  return variance * moore_penrose_inverse(columns.transpose() * columns).inverse.diagonal();
+  return variance * moore_penrose_inverse(columns.transpose() * columns, kDependent * kDependent).inverse.diagonal();
 }
 
-/// Columns that those before them leave something of.
-std::vector<Eigen::Index> independent_columns(const Eigen::MatrixXd& columns) {
-  constexpr double kLeastShare = 1e-4;
-  std::vector<Eigen::Index> kept;
-  Eigen::MatrixXd basis(columns.rows(), 0);
-  for (Eigen::Index i = 0; i < columns.cols(); ++i) {
-    Eigen::VectorXd rest = columns.col(i);
-    for (int twice = 0; twice < 2; ++twice) rest -= basis * (basis.transpose() * rest).eval();
-    if (!(rest.norm() > kLeastShare * columns.col(i).norm())) continue;
-    kept.push_back(i);
-    basis.conservativeResize(Eigen::NoChange, basis.cols() + 1);
-    basis.rightCols(1) = rest.normalized();
-  }
-  return kept;
+/// What `basis` leaves of columns.
+Eigen::MatrixXd beyond(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& columns) {
+  return columns - basis * (basis.transpose() * columns).eval();
+}
+
+/// Changes of a cause's coefficients that poses tell.
+struct ToldChanges {
+  Eigen::MatrixXd directions;        ///< by which its columns become orthonormal
+  Eigen::VectorXd untold_variances;  ///< of its coefficients, by what is hardly told and left as it is; of unit noise
+};
+
+/// Those that these poses do not tell much less well than others of the same cause, and that stay apart from what
+/// `basis` spans: by the sine of the angle to it, so that no unit of a coefficient matters.
+ToldChanges told_apart(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& basis) {
+  constexpr double kLeastShare = 0.01, kLeastSine = 0.03, kNothing = 1e-4;
+  const SingularSystem own = singular_system(columns, Eigen::ComputeThinV);
+  const double most = own.values.size() > 0 ? own.values[0] : 0.0;
+  ToldChanges told{Eigen::MatrixXd(columns.cols(), 0), Eigen::VectorXd::Zero(columns.cols())};
+  if (!(most > 0.0)) return told;
+  const Eigen::Index count = (own.values.array() >= kLeastShare * most).count();
+  for (Eigen::Index i = count; i < own.values.size() && own.values[i] > kNothing * most; ++i)
+    told.untold_variances += (own.v.col(i) / own.values[i]).cwiseAbs2();
+  told.directions = own.v.leftCols(count) * own.values.head(count).cwiseInverse().asDiagonal();
+  if (basis.cols() == 0) return told;
+  const SingularSystem sines = singular_system(beyond(basis, columns * told.directions), Eigen::ComputeThinV);
+  told.directions *= sines.v.leftCols((sines.values.array() >= kLeastSine).count()).eval();
+  return told;
 }
 
 /// Whether a move of the tool does to these poses what a joint's zero does: that of the last joint turns the tool
@@ -73,7 +87,7 @@ bool makes_up_for(const Effect& tool, const Effect& zero, const ChangeRows& rows
   if (law_of(tool).subject() != Subject::tool || declared_flag(zero.kind) != &DeclaredModel::joint_offset) return false;
   const Eigen::MatrixXd basis = PivotedQr(rows.columns[place_of(tool, trial.effects)]).basis();
   const Eigen::MatrixXd& column = rows.columns[place_of(zero, trial.effects)];
-  return (column - basis * (basis.transpose() * column).eval()).norm() < kNothing * column.norm();
+  return beyond(basis, column).norm() < kNothing * column.norm();
 }
 
 }  // namespace
@@ -89,7 +103,7 @@ std::vector<ChangeCause> tested_causes(const ChangeRows& rows, const CauseTrial&
   for (std::size_t i = 0; i < trial.effects.size(); ++i) {
     const Eigen::MatrixXd& columns = rows.columns[i];
     if (columns.norm() < kSeen || columns.cols() + 2 > columns.rows()) continue;
-    const PivotedQr qr(columns);
+    const PivotedQr qr(columns, kDependent);
     const auto rank = static_cast<double>(qr.rank());
     ChangeCause cause;
     cause.effect = trial.effects[i];
@@ -123,27 +137,43 @@ std::size_t place_of(const Effect& effect, const std::vector<Effect>& effects) {
       std::ranges::find_if(effects, [&](const Effect& one) { return one.same_law_as(effect); }) - effects.begin());
 }
 
-Eigen::MatrixXd columns_of(const std::vector<ChangeCause>& found, const ChangeRows& rows,
-                           const std::vector<Effect>& effects) {
-  Eigen::MatrixXd all(rows.values.size(), 0);
+ChangeAmounts amounts_on(const std::vector<ChangeCause>& found, const ChangeRows& rows,
+                         const std::vector<Effect>& effects, double known_rows) {
+  const Eigen::Index n = rows.values.size();
+  Eigen::MatrixXd told(n, 0), by_told(0, 0);
+  Eigen::VectorXd untold(0);
+  ChangeAmounts amounts{{}, {}, Eigen::MatrixXd(n, 0)};
   for (const ChangeCause& cause : found) {
     const Eigen::MatrixXd& own = rows.columns[place_of(cause.effect, effects)];
-    all.conservativeResize(Eigen::NoChange, all.cols() + own.cols());
-    all.rightCols(own.cols()) = own;
+    const auto [directions, untold_variances] = told_apart(own, amounts.basis);
+    untold.conservativeResize(untold.size() + own.cols());
+    untold.tail(own.cols()) = untold_variances;
+    told.conservativeResize(Eigen::NoChange, told.cols() + directions.cols());
+    told.rightCols(directions.cols()) = own * directions;
+    by_told.conservativeResizeLike(Eigen::MatrixXd::Zero(by_told.rows() + directions.rows(), told.cols()));
+    by_told.bottomRightCorner(directions.rows(), directions.cols()) = directions;
+    amounts.basis = PivotedQr(told).basis();
   }
-  return all;
+  const Eigen::VectorXd sizes = least_squares_solution(told, rows.values);
+  amounts.values = by_told * sizes;
+  amounts.left = (rows.values - told * sizes).squaredNorm();
+  const double freedom = known_rows + static_cast<double>(n - told.cols());
+  const Eigen::MatrixXd inverse = moore_penrose_inverse(told.transpose() * told).inverse;
+  amounts.variances =
+      (known_rows + amounts.left) / freedom * (untold + (by_told * inverse).cwiseProduct(by_told).rowwise().sum());
+  return amounts;
 }
 
-ChangeAmounts amounts_on(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values, double known_rows) {
-  const std::vector<Eigen::Index> kept = independent_columns(columns);
-  const Eigen::MatrixXd independent = columns(Eigen::all, kept);
-  ChangeAmounts amounts{Eigen::VectorXd::Zero(columns.cols()), Eigen::VectorXd::Zero(columns.cols()),
-                        PivotedQr(independent).basis()};
-  amounts.values(kept) = least_squares_solution(independent, values);
-  amounts.left = (values - columns * amounts.values).squaredNorm();
-  const double freedom = known_rows + static_cast<double>(values.size()) - static_cast<double>(kept.size());
-  amounts.variances(kept) = variances_by(independent, (known_rows + amounts.left) / freedom);
-  return amounts;
+ChangeRows left_by(const std::vector<ChangeCause>& found, const ChangeAmounts& amounts, const ChangeRows& rows,
+                   const std::vector<Effect>& effects) {
+  ChangeRows left = rows;
+  left.values = beyond(amounts.basis, rows.values);
+  for (Eigen::MatrixXd& columns : left.columns) {
+    const Eigen::MatrixXd orthonormal = columns * told_apart(columns, amounts.basis).directions;
+    columns = beyond(amounts.basis, orthonormal) * (orthonormal.transpose() * columns);
+  }
+  for (const ChangeCause& cause : found) left.columns[place_of(cause.effect, effects)].setZero();
+  return left;
 }
 
 void set_amounts(const Eigen::VectorXd& values, const Eigen::VectorXd& variances, const Robot& robot,

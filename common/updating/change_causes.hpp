@@ -28,10 +28,6 @@ std::vector<ChangeCause> tested_causes(const ChangeRows& rows, const CauseTrial&
 /// Where among `effects` the law of this one is.
 std::size_t place_of(const Effect& effect, const std::vector<Effect>& effects);
 
-/// The columns of causes that were found, side by side.
-Eigen::MatrixXd columns_of(const std::vector<ChangeCause>& found, const ChangeRows& rows,
-                           const std::vector<Effect>& effects);
-
 /// How much of several causes there is, by least squares over all of them together.
 struct ChangeAmounts {
   Eigen::VectorXd values, variances;  ///< of all coefficients
@@ -39,8 +35,14 @@ struct ChangeAmounts {
   double left = 0.0;                  ///< sum of squares of what they leave
 };
 
-/// What several columns explain alike is of the first of them.
-ChangeAmounts amounts_on(const Eigen::MatrixXd& columns, const Eigen::VectorXd& values, double known_rows);
+/// What a cause and those found before it do alike to these poses is of those: the lift of an arm with parallel axes
+/// beside its tool, say, whose difference would be taken to metres.
+ChangeAmounts amounts_on(const std::vector<ChangeCause>& found, const ChangeRows& rows,
+                         const std::vector<Effect>& effects, double known_rows);
+
+/// What the causes found leave of the rows, and of other causes what these poses tell from them.
+ChangeRows left_by(const std::vector<ChangeCause>& found, const ChangeAmounts& amounts, const ChangeRows& rows,
+                   const std::vector<Effect>& effects);
 
 /// Of all coefficients, in the order of the causes.
 void set_amounts(const Eigen::VectorXd& values, const Eigen::VectorXd& variances, const Robot& robot,

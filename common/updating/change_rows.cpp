@@ -104,9 +104,11 @@ ScaledChangeRows scaled_change_rows(const CalibratedModel& model, const DataSet&
     const Eigen::MatrixXd known = uncertain_rows(*model.posterior, field);
     rows.covariance += known * known.transpose();
   }
-  if (compared.set_up_anew) add_base(field, rows.covariance);
   add_rounding(field, data.robot.chain, compared.rounding, rows.covariance);
   rows.unstated_m = compared.noise_m * add_unstated(compared.robot, data, field, rows.covariance);
+  rows.expected_m = compared.noise_m * std::sqrt((static_cast<double>(field.rows()) + rows.covariance.trace()) /
+                                                 static_cast<double>(compared.poses.size()));
+  if (compared.set_up_anew) add_base(field, rows.covariance);
   EffectColumns columns;
   columns.append(effects, data.robot, field.states);
   columns.pack();
@@ -121,7 +123,7 @@ ScaledChangeRows scaled_change_rows(const CalibratedModel& model, const DataSet&
 ChangeRows whitened(const ScaledChangeRows& scaled) {
   const Eigen::Index n = scaled.values.size();
   const Cholesky root(Eigen::MatrixXd::Identity(n, n) + scaled.covariance);
-  ChangeRows rows{root.whitened(scaled.values), {}, scaled.first_row, scaled.unstated_m};
+  ChangeRows rows{root.whitened(scaled.values), {}, scaled.first_row, scaled.unstated_m, scaled.expected_m};
   for (const Eigen::MatrixXd& columns : scaled.columns) rows.columns.push_back(root.whitened(columns));
   return rows;
 }

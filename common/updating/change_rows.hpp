@@ -37,6 +37,7 @@ struct ScaledChangeRows {
   std::vector<Eigen::Index> first_row;  ///< of each pose compared, and one past the last
   std::vector<Eigen::Index> turned;     ///< rows of orientations
   double unstated_m = 0.0;              ///< how far what poses do not state may move the tool, rms
+  double expected_m = 0.0;              ///< rms of what an unchanged robot errs by, once its base is found
 };
 ScaledChangeRows scaled_change_rows(const CalibratedModel& model, const DataSet& data, const ComparedPoses& compared,
                                     const std::vector<Effect>& effects);
@@ -46,7 +47,7 @@ struct ChangeRows {
   Eigen::VectorXd values;
   std::vector<Eigen::MatrixXd> columns;
   std::vector<Eigen::Index> first_row;
-  double unstated_m = 0.0;
+  double unstated_m = 0.0, expected_m = 0.0;
 };
 ChangeRows whitened(const ScaledChangeRows& scaled);
 
