@@ -37,7 +37,7 @@ Stop sampled_stop(const CalibratedModel& model, RandomStream& random) {
   return stop;
 }
 
-LinksAlone beside(CorrectedRobot links, const CorrectedRobot& robot, const std::vector<Stop>& stops) {
+LinksAlone compared_links(CorrectedRobot links, const CorrectedRobot& robot, const std::vector<Stop>& stops) {
   LinksAlone alone{std::move(links)};
   for (const Stop& stop : stops) {
     const double lack_m = (robot.predict(stop, "").translation() - alone.links.predict(stop, "").translation()).norm();
@@ -48,7 +48,7 @@ LinksAlone beside(CorrectedRobot links, const CorrectedRobot& robot, const std::
 }
 
 /// What the robot predicts, as if it had been measured in its own base.
-DataSet as_measured(const CalibratedModel& model, const CorrectedRobot& robot, const std::vector<Stop>& stops) {
+DataSet as_predicted_poses(const CalibratedModel& model, const CorrectedRobot& robot, const std::vector<Stop>& stops) {
   DataSet data;
   data.robot = model.nominal;
   data.frame = Frame::base;
@@ -73,15 +73,15 @@ LinksAlone links_alone(const CalibratedModel& model, const CorrectedRobot& robot
   CorrectedRobot bare = robot;
   bare.effects.clear();
   for (JointCorrection& correction : bare.corrections) correction = {};
-  LinksAlone own = beside(bare, robot, judged);
+  LinksAlone own = compared_links(bare, robot, judged);
   if (own.most_m == 0.0) return own;
   std::vector<std::size_t> all(fitted.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const FitOptions options{.starts = 0, .robust = false, .prior_m = 0.0, .prior_rad = 0.0};
-  const Fit fit =
-      fit_declared(as_measured(model, robot, fitted), all, {.joint_offset = true, .geometry = true}, bare, options);
+  const Fit fit = fit_declared(as_predicted_poses(model, robot, fitted), all, {.joint_offset = true, .geometry = true},
+                               bare, options);
   if (fit.status == FitStatus::too_few_poses) return own;
-  LinksAlone nearer = beside(fit.robot, robot, judged);
+  LinksAlone nearer = compared_links(fit.robot, robot, judged);
   nearer.fitted = true;
   return nearer.mean_m < own.mean_m ? nearer : own;
 }

@@ -37,7 +37,7 @@ std::string heading(const TargetFigures& figures) {
 }
 
 /// Whether all of the target's correction was left out, since the calibration does not determine it.
-bool is_undetermined(const CorrectedTarget& target) {
+bool is_left_undetermined(const CorrectedTarget& target) {
   return target.is_as_programmed() && !target.left.empty();
 }
 
@@ -74,7 +74,7 @@ Json entry(const Program& program, const Target& target, const CorrectedTarget& 
             {"line", target.place.line},
             {"column", target.place.column},
             {"kind", target.is_pose() ? "pose" : "joints"},
-            {"corrected_by_model", !corrected.is_uncorrected() && !is_undetermined(corrected)},
+            {"corrected_by_model", !corrected.is_uncorrected() && !is_left_undetermined(corrected)},
             {"joints_from", to_string(corrected.from)},
             {"frame", target.frames.frame.empty() ? "base" : target.frames.frame},
             {"tool", target.frames.tool ? target.frames.tool_name : "of the model"}};
@@ -165,7 +165,7 @@ TargetFigures target_figures(const Target& target, const CorrectedTarget& correc
 MovedFigures moved_figures(const CorrectedProgram& corrected) {
   MovedFigures figures;
   for (const CorrectedTarget& target : corrected.targets) {
-    if (target.is_uncorrected() || is_undetermined(target)) {
+    if (target.is_uncorrected() || is_left_undetermined(target)) {
       ++(target.is_uncorrected() ? figures.uncorrected : figures.undetermined);
       continue;
     }

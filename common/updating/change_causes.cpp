@@ -52,7 +52,7 @@ Eigen::VectorXd variances_by(const Eigen::MatrixXd& columns, double variance) {
 }
 
 /// What `basis` leaves of columns.
-Eigen::MatrixXd beyond(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& columns) {
+Eigen::MatrixXd outside_span(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& columns) {
   return columns - basis * (basis.transpose() * columns).eval();
 }
 
@@ -75,7 +75,7 @@ ToldChanges told_apart(const Eigen::MatrixXd& columns, const Eigen::MatrixXd& ba
     told.untold_variances += (own.v.col(i) / own.values[i]).cwiseAbs2();
   told.directions = own.v.leftCols(count) * own.values.head(count).cwiseInverse().asDiagonal();
   if (basis.cols() == 0) return told;
-  const SingularSystem sines = singular_system(beyond(basis, columns * told.directions), Eigen::ComputeThinV);
+  const SingularSystem sines = singular_system(outside_span(basis, columns * told.directions), Eigen::ComputeThinV);
   told.directions *= sines.v.leftCols((sines.values.array() >= kLeastSine).count()).eval();
   return told;
 }
@@ -87,7 +87,7 @@ bool makes_up_for(const Effect& tool, const Effect& zero, const ChangeRows& rows
   if (law_of(tool).subject() != Subject::tool || declared_flag(zero.kind) != &DeclaredModel::joint_offset) return false;
   const Eigen::MatrixXd basis = PivotedQr(rows.columns[place_of(tool, trial.effects)]).basis();
   const Eigen::MatrixXd& column = rows.columns[place_of(zero, trial.effects)];
-  return beyond(basis, column).norm() < kNothing * column.norm();
+  return outside_span(basis, column).norm() < kNothing * column.norm();
 }
 
 }  // namespace
@@ -167,10 +167,10 @@ ChangeAmounts amounts_on(const std::vector<ChangeCause>& found, const ChangeRows
 ChangeRows left_by(const std::vector<ChangeCause>& found, const ChangeAmounts& amounts, const ChangeRows& rows,
                    const std::vector<Effect>& effects) {
   ChangeRows left = rows;
-  left.values = beyond(amounts.basis, rows.values);
+  left.values = outside_span(amounts.basis, rows.values);
   for (Eigen::MatrixXd& columns : left.columns) {
     const Eigen::MatrixXd orthonormal = columns * told_apart(columns, amounts.basis).directions;
-    columns = beyond(amounts.basis, orthonormal) * (orthonormal.transpose() * columns);
+    columns = outside_span(amounts.basis, orthonormal) * (orthonormal.transpose() * columns);
   }
   for (const ChangeCause& cause : found) left.columns[place_of(cause.effect, effects)].setZero();
   return left;

@@ -11,7 +11,7 @@
 namespace demecal::inline updating {
 namespace {
 
-double square(double value) {
+double squared_size(double value) {
   return value * value;
 }
 
@@ -25,8 +25,8 @@ bool really_leaves_less(const ChangeStep& step, double before_m) {
   constexpr double kReal = 0.5;  ///< of the mean square that the cause takes away to first order
   /// A change that orientations show may leave positions as they are but for noise.
   constexpr double kAlike = 1.1;
-  const double before = square(step.strain_before), promised = before - square(strain_of(step.left));
-  return before - square(step.strain) > kReal * promised &&
+  const double before = squared_size(step.strain_before), promised = before - squared_size(strain_of(step.left));
+  return before - squared_size(step.strain) > kReal * promised &&
          step.left_m < (step.orientation_rad > 0.0 ? kAlike : 1.0) * before_m;
 }
 

@@ -16,7 +16,7 @@ namespace demecal::inline updating {
 namespace {
 
 /// Takes a cause in, with its amount; whether it is of a kind that can be.
-bool take_in(const ChangeCause& cause, SingleChange& change) {
+bool take_cause_in(const ChangeCause& cause, SingleChange& change) {
   bool DeclaredModel::*const kind = declared_flag(cause.effect.kind);
   if (kind == &DeclaredModel::registration) {
     change.moved.base = true;
@@ -30,6 +30,12 @@ bool take_in(const ChangeCause& cause, SingleChange& change) {
     return false;
   }
   return true;
+}
+
+/// The catalogue's word for what a declared joint offset is.
+std::string kind_of_zero() {
+  const auto is_it = [](const EffectLaw* law) { return declared_flag(law->kind()) == &DeclaredModel::joint_offset; };
+  return std::string((*std::ranges::find_if(catalogue(), is_it))->kind());
 }
 
 std::optional<ChangeReport> checked(const CalibratedModel& model, const DataSet& data,
@@ -54,7 +60,7 @@ std::optional<SingleChange> single_change(const CalibratedModel& model, const Da
   SingleChange change{model.robot, {.base = report->set_up_anew, .tool = false}};
   change.placed.described = data.robot;
   for (const ChangeCause& cause : report->found)
-    if (!take_in(cause, change)) return std::nullopt;
+    if (!take_cause_in(cause, change)) return std::nullopt;
   if (!change.moved.base && !change.moved.tool) return change;
   const Fit fit =
       fit_registration(data, poses, {.registration = change.moved.base, .tool = change.moved.tool}, change.placed);
@@ -68,7 +74,7 @@ std::string sentence_of(const Moved& moved, const CorrectedRobot& before, const 
   std::vector<std::string> changed, kept;
   for (const int joint : moved.zeros) {
     const ParameterId zero = zero_of(before.chain, joint);
-    Effect effect{.kind = "joint_offset", .joint = joint};
+    Effect effect{.kind = kind_of_zero(), .joint = joint};
     effect.values = {parameter_value(after, zero) - parameter_value(before, zero)};
     found += law_of(effect).diagnosis(effect, before.described) + ' ';
     changed.push_back(fmt::format("the zero of joint {}", joint + 1));

@@ -110,7 +110,7 @@ Posterior posterior_of_update(const PriorModel& prior, const Eigen::MatrixXd& ro
 }
 
 /// A way of updating, and what came of it.
-struct Trial {
+struct UpdateTrial {
   PriorModel prior;
   RowScales scales;
   Solution solution{};
@@ -120,11 +120,11 @@ struct Trial {
   LeftOut others{};       ///< of the poses used
 };
 
-Trial tried(PriorModel believed, const CalibratedModel& model, const DataSet& data,
-            const std::vector<std::size_t>& poses, const RowScales& scales) {
+UpdateTrial tried(PriorModel believed, const CalibratedModel& model, const DataSet& data,
+                  const std::vector<std::size_t>& poses, const RowScales& scales) {
   constexpr int kSteps = 3;
   constexpr double kNothing = 1e-8;
-  Trial trial{std::move(believed), scales};
+  UpdateTrial trial{std::move(believed), scales};
   trial.used = poses;
   const PriorModel& prior = trial.prior;
   const JointSizes joints = model.fleet ? JointSizes::alike : JointSizes::each;
@@ -161,9 +161,9 @@ Trial tried(PriorModel believed, const CalibratedModel& model, const DataSet& da
 
 /// Whether all others predict each pose better by `one` way, of those that both use; leaving more of them out is no
 /// better way.
-bool predicts_better(const Trial& one, const Trial& other) {
+bool predicts_better(const UpdateTrial& one, const UpdateTrial& other) {
   if (one.gross.size() > other.gross.size()) return false;
-  const auto squares = [](const Trial& of, const Trial& beside) {
+  const auto squares = [](const UpdateTrial& of, const UpdateTrial& beside) {
     double sum = 0.0;
     for (std::size_t i = 0; i < of.used.size(); ++i)
       if (std::ranges::count(beside.used, of.used[i]) > 0) sum += of.others.by_pose[i];
@@ -172,7 +172,7 @@ bool predicts_better(const Trial& one, const Trial& other) {
   return squares(one, other) < squares(other, one);
 }
 
-void say_changes(const Trial& trial, const DataSet& data, bool of_fleet, Update& update) {
+void say_changes(const UpdateTrial& trial, const DataSet& data, bool of_fleet, Update& update) {
   constexpr double kMuch = 3.0;
   for (std::size_t part = 0; part < kBeliefParts; ++part) {
     const double times = std::sqrt(trial.sizes.factors[part]);
@@ -200,11 +200,11 @@ void say_changes(const Trial& trial, const DataSet& data, bool of_fleet, Update&
 Update updated(const CalibratedModel& model, const CorrectedRobot& placed, const DataSet& data,
                const std::vector<std::size_t>& poses, const DeclaredModel& declared, const AssumedDrift& drift) {
   const RowScales scales = scales_of_new_poses(data, placed, poses, model.interval);
-  Trial best = tried({model, placed, data, poses, declared, drift}, model, data, poses, scales);
+  UpdateTrial best = tried({model, placed, data, poses, declared, drift}, model, data, poses, scales);
   Update update;
   if (poses.size() <= kMostLeftOut) {
     if (const auto change = single_change(model, data, poses)) {
-      Trial other =
+      UpdateTrial other =
           tried({model, change->placed, data, poses, declared, drift, change->moved}, model, data, poses, scales);
       if (predicts_better(other, best)) {
         best = std::move(other);

@@ -269,7 +269,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
 
 CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
                                        const CalibrateOptions& options) {
-  const auto begin = std::chrono::steady_clock::now();
+  const Clock::time_point begin = Clock::now();
   Job without_corrections = job;
   without_corrections.declared.joint_corrections = false;
   CalibrateResult result;
@@ -280,8 +280,7 @@ CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, cons
     return !interrupt;
   };
   RandomStream random{job.seed, number_of(RandomPurpose::structure_search)};
-  StructuralCalibration found =
-      calibrate_structure(data, job.declared, result.preparation.registered.robot, search, random, watch);
+  auto found = calibrate_structure(data, job.declared, result.preparation.registered.robot, search, random, watch);
   result.calibration = conclude(data, without_corrections, result.preparation, {});
   result.calibration.robot = std::move(found.robot);
   result.calibration.estimates = std::move(found.estimates);
@@ -294,7 +293,7 @@ CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, cons
   result.facts.generations = static_cast<std::uint64_t>(found.generations);
   result.facts.evaluations = found.evaluations;
   result.facts.interrupted = interrupt;
-  result.facts.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   return result;
 }
 
