@@ -222,7 +222,8 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
     outcome_.stopped = StopReason::no_gain;
   linearization = choose_explanation(std::move(linearization), result);
   if (!model_.robot.effects.empty() && leaves_more(problem_, model_, result.before)) {
-    linearization = linearize(problem_, model_ = result.before);
+    model_ = result.before;
+    linearization = linearize(problem_, model_);
     result.front = {}, result.best.reset();
   }
   measure_pure_error(linearization);
