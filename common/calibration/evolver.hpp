@@ -7,6 +7,8 @@
 
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
+#include "diagnosis/loop.hpp"
+#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "explanations/explanation_search.hpp"
@@ -57,6 +59,9 @@ class Evolver {
     return demecal::search_explanations(problem, search);
   }
 
+  /// As demecal::make_draws() does, to the bit, whoever makes them.
+  virtual std::vector<std::vector<double>> make_draws(const DrawWork& work) { return demecal::make_draws(work); }
+
   /// The closed loop is about to have this evolved; for those who watch.
   virtual void announce(Purpose /*purpose*/) {}
   /// Whether what is bred by the caller itself, without evolve(), should end.
@@ -64,5 +69,13 @@ class Evolver {
   /// Counts what the caller bred itself.
   virtual void add_effort(std::uint32_t /*generations*/, std::uint64_t /*evaluations*/) {}
 };
+
+/// The closed loop's work by whom the evolver has; it has to outlive that.
+inline LoopWork work_of(Evolver& evolver) {
+  return {[&evolver](const ExplanationProblem& problem, const SetSearch& search) {
+            return evolver.search_explanations(problem, search);
+          },
+          [&evolver](const DrawWork& work) { return evolver.make_draws(work); }};
+}
 
 }  // namespace demecal::inline calibration

@@ -113,9 +113,7 @@ LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolv
   LoopOptions options = loop_options(job_);
   options.evolved = std::move(evolved.formulas);
   options.evolved_null_gains = std::move(evolved.null_nats);
-  options.search_explanations = [this](const ExplanationProblem& problem, const SetSearch& search) {
-    return evolver_.search_explanations(problem, search);
-  };
+  options.work = work_of(evolver_);
   LoopResult found = close_loop(data_, job_.declared, loop_start_from(robot), options, watched);
   take_back_unjudged(data_, found);
   stopped_ = stopped_ || evolver_.is_interrupted();

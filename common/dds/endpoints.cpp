@@ -136,29 +136,29 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/9/data";
+      return "demecal/10/data";
     case Topic::task:
-      return "demecal/9/task";
+      return "demecal/10/task";
     case Topic::control:
-      return "demecal/9/control";
+      return "demecal/10/control";
     case Topic::migrants:
-      return "demecal/9/migrants/" + std::to_string(joint + 1);
+      return "demecal/10/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/9/progress";
+      return "demecal/10/progress";
     case Topic::checkpoint:
-      return "demecal/9/checkpoint";
+      return "demecal/10/checkpoint";
     case Topic::outcome:
-      return "demecal/9/outcome";
+      return "demecal/10/outcome";
     case Topic::loop:
-      return "demecal/9/loop";
+      return "demecal/10/loop";
     case Topic::cause:
-      return "demecal/9/cause";
+      return "demecal/10/cause";
     case Topic::final_figures:
-      return "demecal/9/final_figures";
+      return "demecal/10/final_figures";
     case Topic::worker:
       break;
   }
-  return "demecal/9/worker";
+  return "demecal/10/worker";
 }
 
 fastdds::DataWriterQos writer_qos(Topic topic) {

@@ -14,8 +14,8 @@
 #include "effects/arm_state.hpp"
 #include "effects/catalogue.hpp"
 #include "effects/effect.hpp"
-#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/smooth_corrections.hpp"
 
@@ -188,7 +188,8 @@ void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxim
                         : Scan(loop.columns, naming_costs_nats(loop.candidates), loop.linearization.fitted, beyond);
   std::vector<double> maxima = null_maxima;
   if (!set_aside.empty())
-    maxima = scan.null_maxima(loop.columns, loop.linearization.fitted, beyond, options.null_draws, random);
+    maxima = scan.null_maxima(loop.columns, loop.linearization.fitted, beyond, options.null_draws, random,
+                              options.make_draws);
   const double variance = beyond.squares() / beyond.freedom();
   const std::vector<Score> scores = scan.scores();
   std::vector<DetectableCandidate> candidates;

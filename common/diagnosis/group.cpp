@@ -10,7 +10,7 @@
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/scan.hpp"
 #include "effects/law_terms.hpp"
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline diagnosis {
@@ -130,7 +130,7 @@ void Group::update_null_maxima(std::size_t index) {
   const bool first = outcome_.rounds.empty();
   if (!null_maxima_.empty() && (evident || !first)) return;
   null_maxima_ = scan_.null_maxima(columns_, linearization_.fitted, projection_, rules_.null_draws,
-                                   random(RandomPurpose::null_distribution));
+                                   random(RandomPurpose::null_distribution), rules_.make_draws);
 }
 
 Round Group::evaluate(std::size_t index) {

@@ -13,6 +13,7 @@
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
+#include "draws/draw_work.hpp"
 #include "effects/effect.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
@@ -34,6 +35,7 @@ struct GroupRules {
   int first_round = 1;  ///< number of the group's first round
   double p_structure = 1.0;
   std::vector<double> evolved_null_gains{};  ///< of LoopOptions
+  MakeDraws make_draws = demecal::make_draws;
 };
 
 /// The share of a null distribution (ascending), the found value counted among it, that explains as much.

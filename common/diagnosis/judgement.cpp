@@ -13,11 +13,11 @@
 
 #include "decompositions/decompositions.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/tall_products.hpp"
 #include "kinematics/chain.hpp"
 #include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "products/tall_products.hpp"
 #include "random/distributions.hpp"
 
 namespace demecal::inline diagnosis {

@@ -15,9 +15,9 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "explanations/error_budget.hpp"
-#include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "products/tall_products.hpp"
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/noise_estimation.hpp"
@@ -62,7 +62,7 @@ class ClosedLoop {
   }
   double structure(const Linearization& linearization) const {
     return structure_p_value(linearization.fitted, linearization.projection, problem_.data.robot.chain,
-                             options_.null_draws, random(RandomPurpose::structure_test));
+                             options_.null_draws, random(RandomPurpose::structure_test), options_.work.make_draws);
   }
 
   const DiagnosisProblem& problem_;
@@ -148,7 +148,8 @@ GroupRules ClosedLoop::rules() const {
           .group = group_,
           .first_round = static_cast<int>(outcome_.rounds.size()) + 1,
           .p_structure = p_structure_,
-          .evolved_null_gains = options_.evolved_null_gains};
+          .evolved_null_gains = options_.evolved_null_gains,
+          .make_draws = options_.work.make_draws};
 }
 
 /// Candidates that the model holds already, or that the backward step took back.
@@ -254,24 +255,22 @@ Linearization ClosedLoop::choose_explanation(const Linearization& linearization,
 Linearization ClosedLoop::choose_explanation(Linearization linearization, const ExplanationSearch& search,
                                              LoopResult& result) {
   Explained found = explained({problem_, model_, linearization, candidates_, columns_, outcome_.rounds, null_maxima_,
-                               rules(), options_.search_explanations},
+                               rules(), options_.work.search_explanations},
                               search, random(RandomPurpose::explanation_search), watch_);
-  if (found.rounds.empty() && found.model.robot.effects.size() == model_.robot.effects.size()) {
-    result.front = std::move(found.front);
-    return linearization;
-  }
+  result.front = std::move(found.front);
+  if (found.rounds.empty() && found.model.robot.effects.size() == model_.robot.effects.size()) return linearization;
   model_ = std::move(found.model);
   std::ranges::move(found.rounds, std::back_inserter(outcome_.rounds));
   estimate_noise();
   linearization = eliminate_backward(problem_, model_, candidates_, outcome_);
   p_structure_ = structure(linearization);
-  result.front = std::move(found.front);
   result.best = std::move(found.best);
   choose(problem_, model_, result.front);
   return linearization;
 }
 
 void ClosedLoop::finish(const Linearization& linearization) {
+  const BoundOptions bounds{options_.family_error, options_.null_draws, options_.work.make_draws};
   outcome_.p_structure_left = p_structure_;
   outcome_.noise = model_.noise;
   outcome_.noise_estimated = model_.noise_estimated;
@@ -282,8 +281,7 @@ void ClosedLoop::finish(const Linearization& linearization) {
   update_rivals(finished, outcome_.rounds);
   exclude_own_forms(outcome_.rounds);
   find_next_measurements(problem_, model_, random(RandomPurpose::next_measurement), outcome_.rounds);
-  find_limits(finished, null_maxima_, {options_.family_error, options_.null_draws},
-              random(RandomPurpose::null_distribution), outcome_);
+  find_limits(finished, null_maxima_, bounds, random(RandomPurpose::null_distribution), outcome_);
   for (std::size_t i = 0; i < linearization.fitted.poses.size(); ++i)
     if (linearization.fitted.root_weight[i] < kOutlier) outcome_.outliers.push_back(linearization.fitted.poses[i]);
 }

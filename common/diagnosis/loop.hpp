@@ -12,6 +12,7 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/outcome.hpp"
+#include "draws/draw_work.hpp"
 #include "effect_sets/set_island.hpp"
 #include "explanations/error_budget.hpp"
 #include "explanations/explanation_search.hpp"
@@ -23,6 +24,12 @@
 #include "residuals/diagnosed_model.hpp"
 
 namespace demecal::inline diagnosis {
+
+/// Who does what others can do as well, to the bit: this process, or workers too.
+struct LoopWork {
+  SearchExplanations search_explanations = demecal::search_explanations;
+  MakeDraws make_draws = demecal::make_draws;
+};
 
 struct LoopOptions {
   std::vector<std::string> kinds;  ///< words of the catalogue to consider; empty: all
@@ -43,7 +50,7 @@ struct LoopOptions {
   bool noise = true;  ///< how at most 400 fitted poses scatter together is estimated; others are independent
   /// For sets of effects, when nothing more can be added; without variations effects can only be left out.
   ExplanationSearch explanations{};
-  SearchExplanations search_explanations = demecal::search_explanations;
+  LoopWork work{};
   std::uint64_t seed = 1;
 };
 

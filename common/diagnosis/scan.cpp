@@ -10,17 +10,16 @@
 #include <string>
 
 #include "decompositions/decompositions.hpp"
+#include "draws/gain_draws.hpp"
 #include "effects/effect.hpp"
 #include "expression/tree.hpp"
-#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
 #include "primitives/primitive.hpp"
-#include "residuals/null_noise.hpp"
+#include "products/tall_products.hpp"
+#include "residuals/found_noise.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {
-
-constexpr std::size_t kAtATime = 32;  ///< draws in a piece of work
 
 constexpr double kRivalCosine = 0.9;
 constexpr double kRelated = 0.5;
@@ -57,8 +56,7 @@ Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs
     : spans_(columns.spans()),
       naming_costs_nats_(naming_costs_nats),
       whole_(columns.squares(field)),
-      rows_(static_cast<double>(field.rows())),
-      poses_(static_cast<double>(distinct_poses(field))) {
+      prices_{static_cast<double>(field.rows()), static_cast<double>(distinct_poses(field))} {
   RowMatrix basis_and_residual(field.rows(), model.rank() + 1);
   basis_and_residual.leftCols(model.rank()) = model.basis();
   basis_and_residual.col(model.rank()) = model.residual();
@@ -103,15 +101,9 @@ void Scan::invert() {
   });
 }
 
-double Scan::gain_nats(double drop, double squares, Eigen::Index rank, double naming_cost_nats) const {
-  if (rank == 0) return 0.0;
-  const double share = std::min(drop / squares, 1.0 - 1e-12);
-  return -0.5 * rows_ * std::log1p(-share) - 0.5 * static_cast<double>(rank) * std::log(poses_) - naming_cost_nats;
-}
-
 double Scan::gain_nats(const ModelPart& part, double naming_cost_nats) const {
   const double drop = part.explained.squaredNorm();
-  return gain_nats(drop, squares_ + drop, part.explained.size(), naming_cost_nats);
+  return prices_.gain_nats(drop, squares_ + drop, part.explained.size(), naming_cost_nats);
 }
 
 Scan::InPlace Scan::in_place_of(const ModelPart& part) const {
@@ -125,7 +117,7 @@ Scan::InPlace Scan::in_place_of(const ModelPart& part) const {
     const Eigen::VectorXd moment = moment_.segment(spans_[i].first, spans_[i].count) + shared;
     all.cosines[i] = std::sqrt(std::clamp(shared.dot(gram.inverse * shared) / square, 0.0, 1.0));
     all.gains_nats[i] =
-        gain_nats(moment.dot(gram.inverse * moment), squares_ + square, gram.rank, naming_costs_nats_[i]);
+        prices_.gain_nats(moment.dot(gram.inverse * moment), squares_ + square, gram.rank, naming_costs_nats_[i]);
   }
   return all;
 }
@@ -137,7 +129,7 @@ std::vector<Score> Scan::scores() const {
     scores[i].drop = moment.dot(grams_[i].inverse * moment);
     scores[i].rank = grams_[i].rank;
     scores[i].visible = grams_[i].visible;
-    scores[i].gain_nats = gain_nats(scores[i].drop, squares_, scores[i].rank, naming_costs_nats_[i]);
+    scores[i].gain_nats = prices_.gain_nats(scores[i].drop, squares_, scores[i].rank, naming_costs_nats_[i]);
   }
   return scores;
 }
@@ -152,41 +144,21 @@ std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square
 }
 
 std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
-                                      int count, RandomStream random) const {
-  const RowMatrixF basis = model.basis().cast<float>(), prior_basis = model.prior_basis().cast<float>();
-  const Eigen::MatrixXf along = along_.cast<float>();
-  const NullNoise noise(field, model);
-  const std::uint64_t name = random.name();
-  std::vector<double> maxima(static_cast<std::size_t>(count));
-  in_pieces((maxima.size() + kAtATime - 1) / kAtATime, [&](std::size_t piece) {
-    const std::size_t done = piece * kAtATime, now = std::min(kAtATime, maxima.size() - done);
-    RandomStream own{name, piece};
-    const NullNoise::Draws draws = noise.draw(static_cast<Eigen::Index>(now), own);
-    const RowMatrixF rows = draws.fitted.cast<float>(), beliefs = draws.beliefs.cast<float>();
-    const Eigen::MatrixXf explained = basis.transpose() * rows + prior_basis.transpose() * beliefs;
-    const Eigen::MatrixXd moments = (columns.transposed_times(field, rows) - along * explained).cast<double>();
-    const Eigen::VectorXd squares =
-        (rows.colwise().squaredNorm() + beliefs.colwise().squaredNorm() - explained.colwise().squaredNorm())
-            .transpose()
-            .cast<double>();
-    for (std::size_t i = 0; i < now; ++i) {
-      const auto draw = static_cast<Eigen::Index>(i);
-      maxima[done + i] = best_gain(moments.col(draw), squares[draw]);
-    }
-  });
+                                      int count, RandomStream random, const MakeDraws& make) const {
+  std::vector<GainCandidate> candidates;
+  for (std::size_t i = 0; i < spans_.size(); ++i)
+    candidates.push_back({spans_[i].first, grams_[i].rank, naming_costs_nats_[i], grams_[i].inverse});
+  const GainDraws work({.noise = null_noise(field, model),
+                        .basis = model.basis().cast<float>(),
+                        .prior_basis = model.prior_basis().cast<float>(),
+                        .along = along_.cast<float>(),
+                        .candidates = std::move(candidates),
+                        .prices = prices_},
+                       columns.blocks(), field.motions, static_cast<std::uint32_t>(count), random.name());
+  std::vector<double> maxima;
+  for (const std::vector<double>& piece : make(work)) std::ranges::copy(piece, std::back_inserter(maxima));
   std::sort(maxima.begin(), maxima.end());
   return maxima;
-}
-
-double Scan::best_gain(const Eigen::VectorXd& moments, double squares) const {
-  double best = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < spans_.size(); ++k) {
-    const auto moment = moments.segment(spans_[k].first, spans_[k].count);
-    if (grams_[k].rank == 0) continue;
-    best = std::max(best,
-                    gain_nats(moment.dot(grams_[k].inverse * moment), squares, grams_[k].rank, naming_costs_nats_[k]));
-  }
-  return best;
 }
 
 bool is_rival(const Effect& named, const Effect& other, double cosine, double nats_behind) {

@@ -9,6 +9,8 @@
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
+#include "draws/draw_work.hpp"
+#include "draws/gain_draws.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effects/effect.hpp"
 #include "next_measurement/next_measurement.hpp"
@@ -64,9 +66,9 @@ class Scan {
   double gain_nats(const ModelPart& part, double naming_cost_nats) const;
 
   /// The largest gain_nats of any candidate, ascending, over `count` draws of the noise in place of the
-  /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005).
+  /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005). `make` makes the draws.
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
-                                  int count, RandomStream random) const;
+                                  int count, RandomStream random, const MakeDraws& make = make_draws) const;
 
  private:
   struct Gram {
@@ -75,8 +77,6 @@ class Scan {
     Eigen::VectorXd visible;
   };
   static Gram inverted(const Eigen::MatrixXd& left, const Eigen::VectorXd& lengths);
-  double gain_nats(double drop, double squares, Eigen::Index rank, double naming_cost_nats) const;
-  double best_gain(const Eigen::VectorXd& moments, double squares) const;
   void invert();
 
   std::vector<ColumnSpan> spans_;
@@ -86,8 +86,7 @@ class Scan {
   std::vector<Gram> grams_;
   Eigen::VectorXd moment_;  ///< X^T residual
   double squares_ = 0.0;
-  double rows_ = 0.0;
-  double poses_ = 0.0;
+  GainPrices prices_;
 };
 
 /// Whether another effect is a rival of the one named: the cosine with it is above 0.9, or the description's length

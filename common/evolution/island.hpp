@@ -26,6 +26,7 @@ struct IslandState {
   Population front;                ///< members of the ParetoFront over all generations
   std::uint32_t without_gain = 0;  ///< epochs since its best grew better or the population began anew
   std::uint64_t draws = 0;         ///< of random numbers, where one stream goes on from epoch to epoch
+  std::vector<double> numbers{};   ///< that were drawn, where nothing is bred
 
   bool operator==(const IslandState&) const = default;
 };

@@ -8,7 +8,7 @@
 
 #include "effect_sets/fitted_set.hpp"
 #include "effects/effect.hpp"
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 

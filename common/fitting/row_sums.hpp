@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 
 namespace demecal::inline fitting {
 

@@ -15,12 +15,12 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "expression/bound.hpp"
-#include "fitting/tall_products.hpp"
 #include "formula_search/rewrite.hpp"
 #include "kinematics/chain.hpp"
 #include "primitives/primitive.hpp"
+#include "products/tall_products.hpp"
 #include "random/distributions.hpp"
-#include "residuals/null_noise.hpp"
+#include "residuals/found_noise.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 
@@ -173,12 +173,12 @@ FormulaSearch FormulaSearcher::run(double family_error, RandomStream random) {
   const PricedFormulas found = evolve_formulas(linearization_.projection.residual(), Purpose::formulas);
   if (!found || found->empty() || found->front().gain_nats <= 0.0) return {};
   FormulaSearch result;
-  const NullNoise noise(linearization_.fitted, linearization_.projection);
-  std::vector<Eigen::Index> all_rows(static_cast<std::size_t>(linearization_.fitted.rows()));
-  std::iota(all_rows.begin(), all_rows.end(), Eigen::Index{0});
+  std::vector<std::size_t> all_poses(linearization_.fitted.poses.size());
+  std::iota(all_poses.begin(), all_poses.end(), std::size_t{0});
+  const NullResiduals noise = null_residuals(linearization_.fitted, linearization_.projection, std::move(all_poses));
   const auto searches = static_cast<std::size_t>(std::ceil(1.0 / family_error - 1e-9));
   while (result.null_nats.size() + 1 < searches) {
-    const PricedFormulas of_noise = evolve_formulas(noise.residuals(1, all_rows, random), Purpose::null_distribution);
+    const PricedFormulas of_noise = evolve_formulas(noise.draw(1, random), Purpose::null_distribution);
     if (!of_noise) return {};
     const double gain_nats = of_noise->empty() ? 0.0 : std::max(0.0, of_noise->front().gain_nats);
     if (gain_nats >= found->front().gain_nats) return {};

@@ -8,7 +8,7 @@
 #include "expression/evaluate.hpp"
 #include "expression/tree.hpp"
 #include "fitness/fitness.hpp"
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 

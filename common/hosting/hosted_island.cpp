@@ -18,6 +18,7 @@ namespace {
 AnyIsland make_island(const RunData& run, IslandKey key) {
   const CalibrationData& data = run.data;
   if (data.breeds == Breeds::sets) return SetIsland(run.problem, search_of(data.sets), key);
+  if (data.breeds == Breeds::draws) return DrawIsland(*run.draws, key);
   return Island(data.parameters, data.archipelago, run.table(key.joint), key, data.seed);
 }
 
@@ -38,10 +39,19 @@ std::string best_text(const SetIsland& island, const RunData& run) {
   return text;
 }
 
+std::string best_text(const DrawIsland&, const RunData&) {
+  return {};
+}
+
 }  // namespace
 
-/// The matrices are held once: as those of the problem.
+/// The matrices are held once: as those of the problem or of the draws.
 RunData::RunData(CalibrationData received) : data(std::move(received)) {
+  if (data.breeds == Breeds::draws) {
+    draws = draw_work(data.draws);
+    data.draws.lists = {};
+    data.draws.tables = {};
+  }
   if (data.breeds != Breeds::sets) return;
   problem = problem_of(data.sets);
   data.sets.gram = {};
@@ -153,7 +163,8 @@ Outcome HostedIsland::outcome(const std::string& worker) const {
           .generations = state().generation,
           .evaluations = state().evaluations,
           .migrants_taken = state().migrants_taken,
-          .front = state().front};
+          .front = state().front,
+          .numbers = state().numbers};
 }
 
 }  // namespace demecal::inline hosting

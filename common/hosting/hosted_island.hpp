@@ -14,12 +14,14 @@
 #include <variant>
 #include <vector>
 
+#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "evolution/population.hpp"
 #include "fitness/fitness.hpp"
+#include "hosting/draw_island.hpp"
 #include "hosting/migrants.hpp"
 #include "protocol/messages.hpp"
 
@@ -68,12 +70,13 @@ struct RunData {
   explicit RunData(CalibrationData received);
 
   CalibrationData data;
-  ExplanationProblem problem;  ///< where sets of effects are bred
+  ExplanationProblem problem;       ///< where sets of effects are bred
+  std::unique_ptr<DrawWork> draws;  ///< where these are made
   const TrainingTable& table(std::uint32_t joint) const;
 };
 
-/// An island of formulas, or one of sets of effects.
-using AnyIsland = std::variant<Island, SetIsland>;
+/// An island of formulas, one of sets of effects, or a piece of draws.
+using AnyIsland = std::variant<Island, SetIsland, DrawIsland>;
 
 class HostedIsland {
  public:

@@ -77,7 +77,7 @@ void Watched::note(const CalibrationData& data, double now_s) {
   if (!is_believable(data)) return;
   WatchedRun& run = run_of(data.run, now_s);
   if (run.has_data()) return;
-  run.data = {data.run, data.job, data.seed, data.parameters, data.archipelago, {}, data.breeds, {}};
+  run.data = {data.run, data.job, data.seed, data.parameters, data.archipelago, {}, data.breeds, {}, {}};
   std::erase_if(run.islands, [&](const auto& island) { return !has_island(data, island.first); });
   run.evaluations = 0;
   for (const auto& [key, island] : run.islands) run.evaluations += island.evaluations;

@@ -12,12 +12,12 @@
 #include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
 #include "effects/law_terms.hpp"
-#include "fitting/tall_products.hpp"
 #include "next_measurement/experiments.hpp"
 #include "next_measurement/posterior_model.hpp"
 #include "parameters/declared_model.hpp"
 #include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
 

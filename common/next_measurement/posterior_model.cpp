@@ -13,10 +13,10 @@
 
 #include "decompositions/decompositions.hpp"
 #include "effects/arm_state.hpp"
-#include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"

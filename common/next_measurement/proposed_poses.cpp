@@ -1,6 +1,6 @@
 #include "decompositions/decompositions.hpp"
-#include "fitting/tall_products.hpp"
 #include "next_measurement/next_measurement.hpp"
+#include "products/tall_products.hpp"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "draws/draw_work.hpp"
 #include "protocol/messages.hpp"
 
 namespace demecal::inline protocol {
@@ -99,7 +100,9 @@ inline constexpr EnumerationList kEnumeration<Replacement>{"Replacement", "WORST
 template <>
 inline constexpr EnumerationList kEnumeration<Loss>{"Loss", "ABSOLUTE_ERROR, SQUARED_ERROR"};
 template <>
-inline constexpr EnumerationList kEnumeration<Breeds>{"Breeds", "FORMULAS, SETS"};
+inline constexpr EnumerationList kEnumeration<Breeds>{"Breeds", "FORMULAS, SETS, DRAWS"};
+template <>
+inline constexpr EnumerationList kEnumeration<DrawKind>{"DrawKind", "AGREEMENTS, GAINS"};
 
 /// The words of an enumeration that people read, in the order of its values: on monitoring topics and in events.
 template <class E>

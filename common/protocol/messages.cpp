@@ -48,6 +48,19 @@ CalibrationData data_of_search(const ExplanationProblem& problem, const SetSearc
   return data;
 }
 
+CalibrationData data_of_draws(const DrawWork& work) {
+  CalibrationData data;
+  data.breeds = Breeds::draws;
+  data.draws = work.inputs();
+  data.parameters.number_generations = 1;
+  data.archipelago.joints = {0};
+  data.archipelago.demes_per_joint = static_cast<std::uint32_t>(work.pieces());
+  data.archipelago.topology = Topology::none;
+  data.archipelago.migration_interval = 1;
+  data.archipelago.migrants = 0;
+  return data;
+}
+
 TopicKey key_of(const Message& message) {
   return std::visit(KeyOf{}, message);
 }

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "effect_sets/set_training.hpp"
@@ -37,8 +38,8 @@ inline constexpr std::size_t kMostFormulaText = 511;
 /// Names one evolution of one job; a coordinator that evolves again uses a new one.
 using RunId = std::uint64_t;
 
-/// What individuals are.
-enum class Breeds { formulas, sets };
+/// What individuals are, or that none are bred: the islands are pieces of many random draws.
+enum class Breeds { formulas, sets, draws };
 
 /// Coordinator -> workers, once per run: all that islands need to know but which of them to work on.
 struct CalibrationData {
@@ -50,12 +51,16 @@ struct CalibrationData {
   std::vector<TrainingTable> tables;  ///< parallel to archipelago.joints; none where sets of effects are bred
   Breeds breeds = Breeds::formulas;
   SetTraining sets{};  ///< where these are bred, on islands of joint 0
+  DrawInputs draws{};  ///< where these are made: deme i of joint 0 makes piece i in its last epoch
 
   bool operator==(const CalibrationData&) const = default;
 };
 
 /// The data of a run that breeds sets of effects, without its number, the job and the seed.
 CalibrationData data_of_search(const ExplanationProblem& problem, const SetSearch& search);
+
+/// The same of one that makes draws.
+CalibrationData data_of_draws(const DrawWork& work);
 
 /// Worker -> workers: the elites of an island after an epoch.
 struct Migrants {
@@ -134,7 +139,8 @@ struct Outcome {
   std::uint32_t generations = 0;
   std::uint64_t evaluations = 0;
   std::uint64_t migrants_taken = 0;
-  Population front;  ///< best of each length
+  Population front;               ///< best of each length
+  std::vector<double> numbers{};  ///< of draws
 
   bool operator==(const Outcome&) const = default;
 };

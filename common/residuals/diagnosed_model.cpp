@@ -10,10 +10,10 @@
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/least_squares.hpp"
-#include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
 #include "pieces/pieces.hpp"
+#include "products/tall_products.hpp"
 #include "random/distributions.hpp"
 #include "residuals/noise.hpp"
 

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "draws/feature_blocks.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "errors/check.hpp"
-#include "fitting/tall_products.hpp"
 #include "pieces/pieces.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {
@@ -41,34 +42,6 @@ std::vector<Feature> features_of(const SampledEffect& sampled, const Robot& robo
   return features;
 }
 
-/// Every pose's rows along one motion: poses x columns of `rows`.
-template <typename Rows>
-Rows along_motion(const ResidualField& field, Eigen::Index motion, const Rows& rows) {
-  using Scalar = typename Rows::Scalar;
-  Rows along(static_cast<Eigen::Index>(field.poses.size()), rows.cols());
-  for (std::size_t pose = 0; pose < field.poses.size(); ++pose) {
-    const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-    auto target = along.row(static_cast<Eigen::Index>(pose));
-    target.setZero();
-    for (Eigen::Index row = first; row < first + count; ++row) {
-      target += static_cast<Scalar>(field.motions(row, motion)) * rows.row(row);
-    }
-  }
-  return along;
-}
-
-/// The sum of what each block gives for its columns, of `columns` in all.
-template <typename Blocks, typename Matrix>
-Matrix summed(const Blocks& blocks, const std::vector<Matrix>& parts, Eigen::Index columns, Eigen::Index count) {
-  Matrix sum = Matrix::Zero(columns, count);
-  for (std::size_t block = 0; block < parts.size(); ++block) {
-    for (std::size_t i = 0; i < blocks[block].columns.size(); ++i) {
-      sum.row(blocks[block].columns[i]) += parts[block].row(static_cast<Eigen::Index>(i));
-    }
-  }
-  return sum;
-}
-
 }  // namespace
 
 void EffectColumns::append(const std::vector<SampledEffect>& effects, const Robot& robot) {
@@ -94,7 +67,7 @@ void EffectColumns::append(const std::vector<Effect>& effects, const Robot& robo
 void EffectColumns::pack() {
   DEMECAL_CHECK(blocks_.empty(), "columns are packed once");
   for (auto& [motion, features] : loose_) {
-    Block block{motion, {}, {}};
+    FeatureBlock block{motion, {}, {}};
     block.features.resize(features.begin()->second.size(), static_cast<Eigen::Index>(features.size()));
     for (auto& [column, values] : features) {
       block.features.col(static_cast<Eigen::Index>(block.columns.size())) = values;
@@ -110,23 +83,15 @@ Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, cons
   DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
   std::vector<Eigen::MatrixXd> parts(blocks_.size());
   in_pieces(parts.size(), [&](std::size_t i) {
-    parts[i] = transposed_product_of_columns(blocks_[i].features, along_motion(field, blocks_[i].motion, rows));
+    parts[i] = transposed_product_of_columns(blocks_[i].features,
+                                             along_motion(field.first_row, field.motions, blocks_[i].motion, rows));
   });
   return summed(blocks_, parts, columns_, rows.cols());
 }
 
-Eigen::MatrixXf EffectColumns::transposed_times(const ResidualField& field, const RowMatrixF& rows) const {
-  DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
-  std::vector<Eigen::MatrixXf> parts(blocks_.size());
-  in_pieces(parts.size(), [&](std::size_t i) {
-    parts[i] = blocks_[i].features.cast<float>().transpose() * along_motion(field, blocks_[i].motion, rows);
-  });
-  return summed(blocks_, parts, columns_, rows.cols());
-}
-
-const EffectColumns::Block* EffectColumns::only_block(ColumnSpan span) const {
-  const Block* only = nullptr;
-  for (const Block& block : blocks_) {
+const FeatureBlock* EffectColumns::only_block(ColumnSpan span) const {
+  const FeatureBlock* only = nullptr;
+  for (const FeatureBlock& block : blocks_) {
     const auto begin = std::lower_bound(block.columns.begin(), block.columns.end(), span.first);
     const auto end = std::lower_bound(begin, block.columns.end(), span.first + span.count);
     if (begin == end) continue;
@@ -139,7 +104,7 @@ const EffectColumns::Block* EffectColumns::only_block(ColumnSpan span) const {
 std::vector<Eigen::MatrixXd> EffectColumns::squares(const ResidualField& field) const {
   std::vector<Eigen::VectorXd> lengths(
       static_cast<std::size_t>(field.motions.cols()));  // of motions, squared, per pose
-  for (const Block& block : blocks_) {
+  for (const FeatureBlock& block : blocks_) {
     Eigen::VectorXd& own = lengths[static_cast<std::size_t>(block.motion)];
     own.resize(static_cast<Eigen::Index>(field.poses.size()));
     for (std::size_t pose = 0; pose < field.poses.size(); ++pose)
@@ -148,7 +113,7 @@ std::vector<Eigen::MatrixXd> EffectColumns::squares(const ResidualField& field) 
   }
   std::vector<Eigen::MatrixXd> squares(spans_.size());
   in_pieces(spans_.size(), [&](std::size_t i) {
-    const Block* const only = field.places.cols() > 0 ? nullptr : only_block(spans_[i]);
+    const FeatureBlock* const only = field.places.cols() > 0 ? nullptr : only_block(spans_[i]);
     if (only == nullptr) {
       const RowMatrix columns = dense(field, i);
       squares[i] = columns.transpose() * columns;
@@ -164,7 +129,7 @@ std::vector<Eigen::MatrixXd> EffectColumns::squares(const ResidualField& field) 
 RowMatrix EffectColumns::dense(const ResidualField& field, std::size_t effect) const {
   const ColumnSpan span = spans_[effect];
   RowMatrix matrix = RowMatrix::Zero(field.rows(), span.count);
-  for (const Block& block : blocks_) {
+  for (const FeatureBlock& block : blocks_) {
     auto at = std::lower_bound(block.columns.begin(), block.columns.end(), span.first);
     for (; at != block.columns.end() && *at < span.first + span.count; ++at) {
       const auto feature = block.features.col(at - block.columns.begin());

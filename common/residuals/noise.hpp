@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "decompositions/decompositions.hpp"
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "decompositions/decompositions.hpp"
 #include "fitting/row_sums.hpp"
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 
 namespace demecal::inline residuals {
 namespace {

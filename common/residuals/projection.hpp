@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {

@@ -8,15 +8,16 @@
 #include <vector>
 
 #include "data/data_set.hpp"
+#include "draws/feature_blocks.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "products/tall_products.hpp"
 
 namespace demecal::inline residuals {
 
@@ -90,8 +91,6 @@ std::size_t distinct_poses(const ResidualField& field);
 ResidualField residual_field(const DataSet& data, std::span<const std::size_t> poses, const ParameterSpace& space,
                              const RowScales& scales, bool robust, const NoiseModel& noise = {});
 
-using RowMatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
 /// An effect and the states at which its features are wanted; both have to outlive it.
 struct SampledEffect {
   const Effect& effect;
@@ -111,11 +110,11 @@ class EffectColumns {
 
   Eigen::Index size() const { return columns_; }
   const std::vector<ColumnSpan>& spans() const { return spans_; }
+  /// Of which the columns are made; `motion` is a column of ResidualField::motions.
+  const std::vector<FeatureBlock>& blocks() const { return blocks_; }
 
   /// X^T Y (size() x Y's columns) of all columns X over the field's rows and a matrix over the same rows.
   Eigen::MatrixXd transposed_times(const ResidualField& field, const RowMatrix& rows) const;
-  /// The same in single precision, which is enough for a null distribution and twice as fast.
-  Eigen::MatrixXf transposed_times(const ResidualField& field, const RowMatrixF& rows) const;
   /// X^T X of every effect's own columns X over the field's rows.
   std::vector<Eigen::MatrixXd> squares(const ResidualField& field) const;
   /// The columns of one effect over the field's rows.
@@ -124,16 +123,10 @@ class EffectColumns {
   RowMatrix dense(const ResidualField& field) const;
 
  private:
-  struct Block {
-    Eigen::Index motion = 0;            ///< column of ResidualField::motions
-    std::vector<Eigen::Index> columns;  ///< which columns the features belong to, ascending
-    Eigen::MatrixXd features;           ///< poses x columns
-  };
-
   /// The block that has all columns of an effect, where there is one: whose motion is one alone.
-  const Block* only_block(ColumnSpan span) const;
+  const FeatureBlock* only_block(ColumnSpan span) const;
 
-  std::vector<Block> blocks_;
+  std::vector<FeatureBlock> blocks_;
   std::map<Eigen::Index, std::map<Eigen::Index, Eigen::VectorXd>> loose_;  ///< motion -> column -> features
   std::vector<ColumnSpan> spans_;
   Eigen::Index columns_ = 0;

@@ -1,5 +1,5 @@
 #include "decompositions/decompositions.hpp"
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/noise_estimation.hpp"
 
 #include <Eigen/Core>

@@ -9,9 +9,9 @@
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
 #include "expression/tree.hpp"
-#include "fitting/tall_products.hpp"
 #include "kinematics/angles.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {

@@ -14,21 +14,18 @@
 #include <utility>
 #include <vector>
 
+#include "draws/agreement_draws.hpp"
+#include "draws/null_noise.hpp"
 #include "effects/arm_state.hpp"
-#include "fitting/tall_products.hpp"
-#include "pieces/pieces.hpp"
+#include "products/tall_products.hpp"
 #include "random/distributions.hpp"
-#include "residuals/null_noise.hpp"
+#include "residuals/found_noise.hpp"
 
 namespace demecal::inline residuals {
 namespace {
 
 constexpr std::size_t kMostPosesTested = 1000;
 constexpr std::size_t kFewLevels = 6;
-constexpr Eigen::Index kDrawsAtATime = 32;
-
-/// Pairs of poses that are neighbours in some circumstance.
-using Pairs = std::vector<std::array<std::size_t, 2>>;
 
 /// A number a pose.
 using Circumstance = std::vector<double>;
@@ -132,83 +129,46 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
   return all;
 }
 
-/// What a radian (or metre) of each joint does to the rows of some poses, one pose after another.
-class JointColumns {
- public:
-  JointColumns(const ResidualField& field, const std::vector<std::size_t>& poses, const Chain& chain)
-      : lengths_(static_cast<Eigen::Index>(poses.size()), chain.size()) {
-    Eigen::Index rows = 0;
-    for (const std::size_t pose : poses) rows += field.rows_of_pose(pose);
-    columns_.resize(rows, chain.size());
-    Eigen::Index at = 0;
-    for (const std::size_t pose : poses) {
-      const Eigen::Index first = field.first_row[pose], count = field.rows_of_pose(pose);
-      for (int joint = 0; joint < chain.size(); ++joint) {
-        const int axis = is_revolute(chain, joint) ? 5 : 2;
-        const auto column = field.motions.block(first, motion_column(joint, axis), count, 1);
-        columns_.block(at, joint, count, 1) = column;
-        lengths_(static_cast<Eigen::Index>(counts_.size()), joint) = column.norm();
-      }
-      counts_.push_back(count);
-      at += count;
-    }
-  }
-
-  /// Every pose's residual as an error of each joint: poses x joints, columns of unit norm.
-  RowMatrix errors(const Eigen::VectorXd& residual) const {
-    RowMatrix errors = RowMatrix::Zero(lengths_.rows(), lengths_.cols());
-    Eigen::Index row = 0;
-    for (Eigen::Index pose = 0; pose < errors.rows(); ++pose) {
-      for (const Eigen::Index end = row + counts_[static_cast<std::size_t>(pose)]; row < end; ++row)
-        errors.row(pose) += residual[row] * columns_.row(row);
-    }
-    errors = (lengths_.array() > kNothing).select(errors.cwiseQuotient(lengths_), 0.0);
-    for (Eigen::Index joint = 0; joint < errors.cols(); ++joint) {
-      const double norm = errors.col(joint).norm();
-      if (norm > 0) errors.col(joint) /= norm;
-    }
-    return errors;
-  }
-
- private:
-  static constexpr double kNothing = 1e-12;
-
-  RowMatrix columns_, lengths_;
-  std::vector<Eigen::Index> counts_;  ///< rows of each pose
+/// What a radian (or metre) of each joint does to the rows of some poses, one pose after another, and how long these
+/// columns are, pose by pose.
+struct JointColumns {
+  RowMatrix columns, lengths;
 };
-
-/// Sums over pairs of the products of their errors, joint by joint in each circumstance.
-Eigen::VectorXd agreements(const RowMatrix& errors, const std::vector<Pairs>& all) {
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(errors.cols(), static_cast<Eigen::Index>(all.size()));
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    auto sum = sums.col(static_cast<Eigen::Index>(i));
-    for (const auto& [a, b] : all[i])
-      sum +=
-          errors.row(static_cast<Eigen::Index>(a)).cwiseProduct(errors.row(static_cast<Eigen::Index>(b))).transpose();
+JointColumns columns_of_joints(const ResidualField& field, const std::vector<std::size_t>& poses, const Chain& chain) {
+  Eigen::Index rows = 0;
+  for (const std::size_t pose : poses) rows += field.rows_of_pose(pose);
+  JointColumns joints{RowMatrix(rows, chain.size()), RowMatrix(static_cast<Eigen::Index>(poses.size()), chain.size())};
+  Eigen::Index at = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Eigen::Index first = field.first_row[poses[i]], count = field.rows_of_pose(poses[i]);
+    for (int joint = 0; joint < chain.size(); ++joint) {
+      const int axis = is_revolute(chain, joint) ? kTurnAboutZ : 2;
+      const auto column = field.motions.block(first, motion_column(joint, axis), count, 1);
+      joints.columns.block(at, joint, count, 1) = column;
+      joints.lengths(static_cast<Eigen::Index>(i), joint) = column.norm();
+    }
+    at += count;
   }
-  return sums.reshaped();
+  return joints;
 }
 
 }  // namespace
 
 double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int draws,
-                         RandomStream random) {
+                         RandomStream random, const MakeDraws& make) {
   const std::vector<std::size_t> poses = evenly_spaced(field.poses.size());
   if (poses.size() < 4) return 1.0;
   const std::vector<Pairs> all = circumstances(field, poses, chain);
   if (all.empty()) return 1.0;
-  const NullNoise noise(field, model);
-  const NullResiduals of_noise(noise, poses);
-  const JointColumns joints(field, poses, chain);
-  const Eigen::VectorXd seen = agreements(joints.errors(model.residual()(of_noise.rows())), all);
+  NullResiduals of_noise = null_residuals(field, model, poses);
+  const Eigen::VectorXd residual = model.residual()(of_noise.rows());
+  JointColumns joints = columns_of_joints(field, poses, chain);
+  const AgreementDraws work(std::move(of_noise), std::move(joints.columns), std::move(joints.lengths), all,
+                            static_cast<std::uint32_t>(draws), random.name());
+  const Eigen::VectorXd seen = work.agreements(residual);
   Eigen::MatrixXd null(seen.size(), draws);
-  const std::uint64_t name = random.name();
-  in_pieces(static_cast<std::size_t>((draws + kDrawsAtATime - 1) / kDrawsAtATime), [&](std::size_t piece) {
-    const Eigen::Index done = static_cast<Eigen::Index>(piece) * kDrawsAtATime;
-    RandomStream own{name, piece};
-    const Eigen::MatrixXd drawn = of_noise.draw(std::min<Eigen::Index>(kDrawsAtATime, draws - done), own);
-    for (Eigen::Index i = 0; i < drawn.cols(); ++i) null.col(done + i) = agreements(joints.errors(drawn.col(i)), all);
-  });
+  double* next = null.data();
+  for (const std::vector<double>& piece : make(work)) next = std::ranges::copy(piece, next).out;
   const Eigen::VectorXd mean = null.rowwise().mean();
   const Eigen::VectorXd deviation =
       ((null.colwise() - mean).rowwise().squaredNorm() / std::max(1, draws - 1)).cwiseSqrt().cwiseMax(1e-12);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "data/data_set.hpp"
+#include "draws/draw_work.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/observation.hpp"
 #include "random/random_stream.hpp"
@@ -19,9 +20,9 @@ namespace demecal::inline residuals {
 /// every pair of joint values) poses that are neighbours in that circumstance are asked whether their errors agree more
 /// than chance would have it. The largest agreement, each in units of its own scatter under `draws` of noise in place
 /// of the whitened residual (a rotation test), is compared with the largest of each draw: family-wise. At most 1000
-/// poses take part, evenly spaced.
+/// poses take part, evenly spaced. `make` makes the draws.
 double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int draws,
-                         RandomStream random);
+                         RandomStream random, const MakeDraws& make = make_draws);
 
 /// Repeats of a pose, from the same sides and station, give the pure error, whatever the model.
 struct PureError {

@@ -9,12 +9,12 @@
 #include "data/data_set.hpp"
 #include "decompositions/decompositions.hpp"
 #include "fitting/fit.hpp"
-#include "fitting/tall_products.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 
 namespace demecal::inline residuals {

@@ -15,6 +15,7 @@
 #include "fitness/fitness.hpp"
 #include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"
+#include "scheduling/shared_draws.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal::inline scheduling {
@@ -143,6 +144,38 @@ std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProbl
   return front_of(problem, fronts);
 }
 
+std::vector<std::vector<double>> IslandEvolver::make_draws(const DrawWork& work) {
+  if (!options_.share_draws || no_worker_came_ || interrupt_) return Evolver::make_draws(work);
+  end_shared_run();
+  CalibrationData data = data_of_draws(work);
+  if (!fit_into_message(data.draws) || !can_start_workers()) return Evolver::make_draws(work);
+  data.job = job_.name;
+  data.seed = job_.seed;
+  data.run = pool_->transport().new_run();
+  pool_->launch(data.run);
+  const auto draws = std::make_shared<SharedDraws>(work.pieces());
+  shared_run_over_ = false;
+  shared_run_ = std::async(std::launch::async, [this, draws, state = RunState(std::move(data))]() mutable {
+    return EvolutionRun(pool_->transport(), std::move(state), *draws, present_)
+        .run(shared_run_over_, options_.patience);
+  });
+  std::vector<std::vector<double>> made = draws->make_rest(work);
+  shared_run_over_ = true;
+  shared_pieces_.all += made.size();
+  shared_pieces_.elsewhere += draws->made_elsewhere();
+  return made;
+}
+
+/// Before anything else is asked of the transport.
+void IslandEvolver::end_shared_run() {
+  if (!shared_run_.valid()) return;
+  RunResult result = shared_run_.get();
+  present_ = std::move(result.present);
+  result.rejected -= std::exchange(rejected_, result.rejected);
+  no_worker_came_ = no_worker_came_ || result.end == RunEnd::no_worker;
+  count_workers(result);
+}
+
 RunState IslandEvolver::known_state(const CalibrationData& data) {
   auto recorded = options_.journal == nullptr ? std::nullopt : options_.journal->recorded(data);
   if (recorded) facts_.resumed = true;
@@ -161,6 +194,7 @@ RunResult IslandEvolver::run(RunState state, bool shown, RunJournal* journal) {
 
 /// Under a number that shows whose the run is.
 RunResult IslandEvolver::attempt(RunState& state, bool shown, RunJournal* journal) {
+  end_shared_run();
   if (!pool_) pool_ = make_pool_();
   Transport& transport = pool_->transport();
   state.rename(transport.new_run());
@@ -204,12 +238,14 @@ bool IslandEvolver::can_start_workers() {
 }
 
 void IslandEvolver::dismiss_workers() {
+  end_shared_run();
   // Those who served it must learn that the last run is over.
   if (pool_ && !interrupt_) pool_->transport().flush(kDismissTimeout);
   release_workers();
 }
 
 void IslandEvolver::release_workers() {
+  end_shared_run();
   if (!pool_) return;
   pool_.reset();
   present_.clear();

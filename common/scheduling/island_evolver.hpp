@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
+#include <future>
 #include <map>
 #include <memory>
 #include <string>
@@ -12,6 +14,7 @@
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "calibration/training.hpp"
+#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
@@ -43,6 +46,7 @@ struct EvolverOptions {
   bool asynchronous = false;              ///< islands wait for no neighbour: the result depends on timing
   EvolutionObserver* observer = nullptr;  ///< none: nobody
   RunJournal* journal = nullptr;          ///< where runs are recorded and taken up again; none: nowhere
+  bool share_draws = false;               ///< the closed loop's draws are made by workers too
 };
 
 /// The evolutions of one calibration: the first, and those that follow when effects were found; each a run of its own.
@@ -62,6 +66,9 @@ class IslandEvolver final : public Evolver {
   /// By the pool's workers; here where none can be started or comes, or where the matrices do not fit into a message.
   /// Not journalled: it takes seconds, and what it finds is a function of its arguments.
   std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override;
+  /// Beside this process by the pool's workers, where draws are shared and their numbers fit into a message: who is
+  /// lost is not missed. Its runs are not for people to see.
+  std::vector<std::vector<double>> make_draws(const DrawWork& work) override;
   /// Why the last search for explanations was made in this process; empty where workers made it.
   const std::string& searched_here_because() const { return searched_here_because_; }
   bool is_interrupted() const override { return interrupt_; }
@@ -72,6 +79,11 @@ class IslandEvolver final : public Evolver {
   /// Lets the pool go. It serves no more: another would be made.
   void dismiss_workers();
   RunEnd end() const { return end_; }
+  /// Of draws that were shared: pieces in all, and those that workers made first.
+  struct SharedPieces {
+    std::size_t all = 0, elsewhere = 0;
+  };
+  const SharedPieces& shared_pieces() const { return shared_pieces_; }
   /// Rows of all runs; the generations of a later one follow those of the earlier.
   std::vector<Progress> take_history() { return std::move(history_); }
   /// What the islands of the last run that was shown ended with.
@@ -84,6 +96,7 @@ class IslandEvolver final : public Evolver {
   RunResult attempt(RunState& state, bool shown, RunJournal* journal);
   void count(RunResult& result, int generations, bool shown);
   void count_workers(const RunResult& result);
+  void end_shared_run();
   bool can_start_workers();
   RunPatience patience_for(const CalibrationData& data) const;
   void release_workers();
@@ -101,6 +114,9 @@ class IslandEvolver final : public Evolver {
   RunFacts facts_;
   bool no_worker_came_ = false;  ///< to a search for explanations: no further one waits for any
   std::string searched_here_because_;
+  SharedPieces shared_pieces_;
+  std::atomic<bool> shared_run_over_{false};
+  std::future<RunResult> shared_run_;    ///< of draws; it ends while the loop goes on
   std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each
 };
 

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "fitting/tall_products.hpp"
 #include "parameters/observation.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 #include "updating/prior_model.hpp"
 

@@ -4,12 +4,12 @@
 #include "data/written_steps.hpp"
 #include "decompositions/decompositions.hpp"
 #include "effects/effect.hpp"
-#include "fitting/tall_products.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "products/tall_products.hpp"
 #include "updating/unstated.hpp"
 
 #include <Eigen/Core>

@@ -12,12 +12,12 @@
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "expression/bound.hpp"
-#include "fitting/tall_products.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/observation.hpp"
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
+#include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
 

@@ -39,14 +39,10 @@
 #include "parameters/posterior.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "protocol/messages.hpp"
-#include "random/random_purpose.hpp"
-#include "random/random_stream.hpp"
 #include "report/make_report.hpp"
 #include "scheduling/island_evolver.hpp"
 #include "scheduling/run_state.hpp"
 #include "scheduling/worker_pool.hpp"
-#include "structure/structural_calibration.hpp"
-#include "structure/structure_fit.hpp"
 
 namespace demecal::inline workflows {
 namespace {
@@ -90,6 +86,7 @@ class AnnouncedEvolver final : public Evolver {
       observer_.on_message("explanations were evolved in this process: " + islands_.searched_here_because());
     return found;
   }
+  std::vector<std::vector<double>> make_draws(const DrawWork& work) override { return islands_.make_draws(work); }
   void announce(Purpose purpose) override {
     if (purpose == Purpose::null_distribution) ++null_searches_;
     observer_.on_message(search_words(purpose, null_searches_));
@@ -148,6 +145,14 @@ std::vector<JointCandidates> learn(const DataSet& data, const Job& job, IslandEv
   return std::move(outcome.candidates);
 }
 
+/// What sharing came to, where there was any.
+void announce_shared_draws(const IslandEvolver& islands, CalibrationObserver& observer) {
+  const IslandEvolver::SharedPieces& pieces = islands.shared_pieces();
+  if (pieces.all == 0) return;
+  observer.on_message("workers made " + std::to_string(pieces.elsewhere) + " of " + std::to_string(pieces.all) +
+                      " pieces of the draws that tests are held against");
+}
+
 /// Closes the loop around result.calibration.
 void close_the_loop(const DataSet& data, const Job& job, IslandEvolver& islands, const std::atomic<bool>& interrupt,
                     CalibrationObserver& observer, CalibrateResult& result) {
@@ -175,11 +180,9 @@ CalibrateResult calibrate_without_corrections(const DataSet& data, const Job& jo
     observer.on_round(round, data.robot);
     return !interrupt;
   };
-  Diagnosis diagnosis =
-      diagnose(data, job, std::nullopt, watch, [&](const ExplanationProblem& problem, const SetSearch& search) {
-        return evolver.search_explanations(problem, search);
-      });
+  Diagnosis diagnosis = diagnose(data, job, std::nullopt, watch, work_of(evolver));
   islands.dismiss_workers();
+  announce_shared_draws(islands, observer);
   CalibrateResult& result = diagnosis.result;
   if (interrupt) result.end = RunEnd::interrupted;
   RunFacts facts = islands.facts();
@@ -244,7 +247,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
   CalibrationObserver nobody;
   CalibrationObserver& observer = options.observer == nullptr ? nobody : *options.observer;
   IslandEvolver islands(job, make_pool, interrupt,
-                        {options.patience, options.asynchronous, &observer, options.journal});
+                        {options.patience, options.asynchronous, &observer, options.journal, options.share_draws});
   if (job.method == Method::diagnose) return calibrate_without_corrections(data, job, islands, interrupt, observer);
   CalibrateResult result;
   if (evolves_on_islands(job)) islands.start_workers();
@@ -257,6 +260,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
   if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0)
     close_the_loop(data, job, islands, interrupt, observer, result);
   islands.dismiss_workers();
+  announce_shared_draws(islands, observer);
   result.model = make_model(data, job, result.calibration);
   result.model.functions = result.functions;
   result.history = islands.take_history();
@@ -264,36 +268,6 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
   result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   result.facts.interrupted = result.end == RunEnd::interrupted;
   result.facts.asynchronous = options.asynchronous;
-  return result;
-}
-
-CalibrateResult calibrate_structurally(const DataSet& data, const Job& job, const std::atomic<bool>& interrupt,
-                                       const CalibrateOptions& options) {
-  const Clock::time_point begin = Clock::now();
-  Job without_corrections = job;
-  without_corrections.declared.joint_corrections = false;
-  CalibrateResult result;
-  result.preparation = prepare(data, without_corrections);
-  const StructureOptions search;
-  const auto watch = [&](int generation, double left) {
-    if (options.observer != nullptr) options.observer->on_structure_generation(generation, search.generations, left);
-    return !interrupt;
-  };
-  RandomStream random{job.seed, number_of(RandomPurpose::structure_search)};
-  auto found = calibrate_structure(data, job.declared, result.preparation.registered.robot, search, random, watch);
-  result.calibration = conclude(data, without_corrections, result.preparation, {});
-  result.calibration.robot = std::move(found.robot);
-  result.calibration.estimates = std::move(found.estimates);
-  result.calibration.index_after_mm2 =
-      performance_index_mm2(result.calibration.robot, data, poses_of(data, PoseSet::calibration));
-  result.before = result.calibration.robot;
-  result.structure = std::move(found.transforms);
-  result.model = make_model(data, without_corrections, result.calibration);
-  if (interrupt) result.end = RunEnd::interrupted;
-  result.facts.generations = static_cast<std::uint64_t>(found.generations);
-  result.facts.evaluations = found.evaluations;
-  result.facts.interrupted = interrupt;
-  result.facts.wall_s = std::chrono::duration<double>(Clock::now() - begin).count();
   return result;
 }
 

@@ -125,7 +125,7 @@ DeclaredModel declared_by_default(const DataSet& data) {
 }
 
 Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
-                   const RoundWatcher& watch, const SearchExplanations& search) {
+                   const RoundWatcher& watch, const LoopWork& work) {
   const auto begin = std::chrono::steady_clock::now();
   CalibrateResult result;
   result.preparation = start_of(data, job, known);
@@ -136,7 +136,7 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   };
   const Fit& declared = result.preparation.declared;
   LoopOptions options = loop_options(job, declared.robot.effects.size());
-  options.search_explanations = search;
+  options.work = work;
   LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot), options, watched);
   take_back_unjudged(data, found);
   drop_negligible_terms(found.before);

@@ -59,6 +59,7 @@ struct CalibrateOptions {
   bool asynchronous = false;                ///< islands wait for no neighbour: the result depends on timing
   CalibrationObserver* observer = nullptr;  ///< none: nobody
   RunJournal* journal = nullptr;            ///< where evolutions are recorded and taken up again; none: nowhere
+  bool share_draws = false;                 ///< workers make the closed loop's draws too
 };
 
 struct CalibrateResult {
@@ -125,10 +126,10 @@ struct Diagnosis {
 };
 
 /// Runs the loop on `known`, a model found before, its numbers fitted again; without it on the job's declared model.
-/// Ends early when `watch` returns false. `search` has islands evolve explanations, those of this process unless told
+/// Ends early when `watch` returns false. `work`: who evolves explanations and makes draws, this process unless told
 /// otherwise. Throws InputError for data that the model cannot be fitted to.
 Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
-                   const RoundWatcher& watch, const SearchExplanations& search = search_explanations);
+                   const RoundWatcher& watch, const LoopWork& work = {});
 
 /// Brings `prior`, a model found before, up to date: see updated(); `earlier` models of the robot, if any, tell how far
 /// it drifts (learned_drift()). Of many poses the loop's own model is kept where it

@@ -45,13 +45,12 @@ namespace {
 
 struct CalibrateRequest {
   std::string job_file, out, resume, data_file, method;
-  std::vector<std::string> prior_files;
-  std::vector<std::string> declared;
+  std::vector<std::string> prior_files, declared;
   WorkerArguments workers;
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   double worker_timeout_s = 30.0;
-  bool quiet = false, asynchronous = false, no_evolution = false, force = false;
+  bool quiet = false, asynchronous = false, no_evolution = false, share_draws = false, force = false;
 };
 
 Job job_of(const CalibrateRequest& request) {
@@ -219,6 +218,7 @@ ExitCode run_calibrate(CalibrateRequest request) {
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   CalibrateOptions options;
   options.asynchronous = request.asynchronous;
+  options.share_draws = request.share_draws;
   options.patience.worker = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
@@ -290,6 +290,8 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_flag("--asynchronous", request->asynchronous,
                     "islands wait for no neighbour: never idle, but another run gives another result");
+  command->add_flag("--share-draws", request->share_draws,
+                    "workers make the closed loop's random draws too: the same result, sooner if they are elsewhere");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run_calibrate(*request); });

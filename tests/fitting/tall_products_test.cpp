@@ -1,5 +1,5 @@
 // Products of matrices of many rows: one order of the terms on every machine and for any pieces.
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 
 #include <gtest/gtest.h>
 

@@ -19,6 +19,11 @@ std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, 
           "--domain",  private_domain()};
 }
 
+std::vector<std::string> with_shared_draws(std::vector<std::string> arguments) {
+  arguments.emplace_back("--share-draws");
+  return arguments;
+}
+
 std::unique_ptr<StartedProgram> worker() {
   return std::make_unique<StartedProgram>("demecal-worker", std::vector<std::string>{"--domain", private_domain()});
 }
@@ -51,7 +56,9 @@ TEST(Calibrate, GivesTheSameModelForOneAndTwoWorkersAndWorkersStartedBeforeOrAft
   EXPECT_EQ(model, job.text("two/model.yaml"));
   {
     const auto first = worker(), second = worker();
-    ASSERT_EQ(run("demecal", calibrate(job, "before", 0)).code, 0);
+    const Ended ended = run("demecal", with_shared_draws(calibrate(job, "before", 0)));
+    ASSERT_EQ(ended.code, 0);
+    EXPECT_NE(ended.err.find("pieces of the draws"), std::string::npos) << ended.err;
   }
   EXPECT_EQ(model, job.text("before/model.yaml"));
   StartedProgram coordinator("demecal", calibrate(job, "after", 0));
@@ -65,7 +72,7 @@ TEST(Calibrate, SurvivesTheDeathOfAWorkerWithTheSameModel) {
   const SmallJob job(200);
   ASSERT_EQ(run("demecal", calibrate(job, "whole", 2)).code, 0);
   auto victim = worker();
-  StartedProgram coordinator("demecal", calibrate(job, "killed", 0));
+  StartedProgram coordinator("demecal", with_shared_draws(calibrate(job, "killed", 0)));
   ASSERT_TRUE(coordinator.wait_for_err("joined"));
   const auto survivor = worker();
   victim->signal(SIGKILL);

@@ -29,6 +29,10 @@ const char* const kStruct<CauseName> = "CauseName";
 template <>
 const char* const kStruct<SetTraining> = "SetTraining";
 template <>
+const char* const kStruct<DrawTable> = "DrawTable";
+template <>
+const char* const kStruct<DrawInputs> = "DrawInputs";
+template <>
 const char* const kStruct<Migrants> = "Migrants";
 template <>
 const char* const kStruct<IslandState> = "IslandState";
@@ -134,7 +138,8 @@ TEST(Document, DeclaresTheStructsThatTheListsAreOf) {
       {"Individual", declared<Individual>()},       {"SharedFunction", declared<SharedFunction>()},
       {"GpParameters", declared<GpParameters>()},   {"Archipelago", declared<Archipelago>()},
       {"TrainingTable", declared<TrainingTable>()}, {"CauseName", declared<CauseName>()},
-      {"SetTraining", declared<SetTraining>()},     {"CalibrationData", declared<CalibrationData>()},
+      {"SetTraining", declared<SetTraining>()},     {"DrawTable", declared<DrawTable>()},
+      {"DrawInputs", declared<DrawInputs>()},       {"CalibrationData", declared<CalibrationData>()},
       {"Migrants", declared<Migrants>()},           {"IslandState", declared<IslandState>()},
       {"IslandTask", declared<IslandTask>()},       {"PlacedProgress", declared<PlacedProgress>()},
       {"Checkpoint", declared<Checkpoint>()},       {"Outcome", declared<Outcome>()},
@@ -150,7 +155,7 @@ Declarations listed_values() {
 }
 
 TEST(Document, DeclaresTheEnumerationsThatAreListed) {
-  EXPECT_EQ(in_the_document("enum"), (listed_values<ConstantPolicy, Topology, Replacement, Loss, Breeds>()));
+  EXPECT_EQ(in_the_document("enum"), (listed_values<ConstantPolicy, Topology, Replacement, Loss, Breeds, DrawKind>()));
 }
 
 template <class E>

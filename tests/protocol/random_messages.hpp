@@ -44,7 +44,7 @@ class RandomMessages {
   }
 
   IslandState state() {
-    return {number(), number(), number(), number(), population(), population(), number(), number()};
+    return {number(), number(), number(), number(), population(), population(), number(), number(), column()};
   }
 
   Migrants migrants() { return {number(), island(), number(), population(5), worker_}; }
@@ -65,8 +65,9 @@ class RandomMessages {
       for (Tree& seed : table.seeds) seed = tree();
       if (random_.chance(0.5)) table.limit = random_.real();
     }
-    data.breeds = random_.chance(0.5) ? Breeds::sets : Breeds::formulas;
+    data.breeds = static_cast<Breeds>(random_.index(3));
     data.sets = sets();
+    data.draws = draws();
     return data;
   }
 
@@ -92,6 +93,16 @@ class RandomMessages {
     return sets;
   }
 
+  DrawInputs draws() {
+    DrawInputs draws{
+        random_.chance(0.5) ? DrawKind::gains : DrawKind::agreements, number(), number(), number(), {}, {}};
+    draws.lists.resize(random_.index(4));
+    for (auto& list : draws.lists) list = places();
+    draws.tables.resize(random_.index(4));
+    for (DrawTable& table : draws.tables) table = {number(), column()};
+    return draws;
+  }
+
   IslandTask task() { return {number(), island(), number(), text(), state(), recent()}; }
   Progress progress() {
     return {number(), island(),       worker_,
@@ -108,7 +119,9 @@ class RandomMessages {
     return figures;
   }
   Checkpoint checkpoint() { return {number(), number(), island(), state(), recent(), worker_}; }
-  Outcome outcome() { return {number(), number(), island(), worker_, number(), number(), number(), population()}; }
+  Outcome outcome() {
+    return {number(), number(), island(), worker_, number(), number(), number(), population(), column()};
+  }
   WorkerStatus status() {
     return {worker_, text(), number(), number(), text(), random_.chance(0.5), number(), random_.real()};
   }

@@ -55,7 +55,8 @@ TEST(EffectColumns, ProductsAreThoseOfTheDenseColumns) {
   const EffectColumns columns = columns_of(effects, arm.data.robot, field);
   const RowMatrix rows = random_matrix(stream, field.rows(), 5);
   const Eigen::MatrixXd product = columns.transposed_times(field, rows);
-  const Eigen::MatrixXf rough = columns.transposed_times(field, RowMatrixF(rows.cast<float>()));
+  const Eigen::MatrixXf rough = transposed_times(columns.blocks(), field.first_row, field.motions, columns.size(),
+                                                 RowMatrixF(rows.cast<float>()));
   ASSERT_EQ(columns.spans().size(), effects.size());
   ASSERT_EQ(product.rows(), columns.size());
   const std::vector<Eigen::MatrixXd> squares = columns.squares(field);

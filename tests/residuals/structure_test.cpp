@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "measured_arm.hpp"
-#include "residuals/null_noise.hpp"
+#include "residuals/found_noise.hpp"
 #include "residuals/structure.hpp"
 
 namespace demecal {
@@ -92,7 +92,6 @@ TEST(NullResiduals, OfSomePosesScatterAsIfAllHadBeenDrawn) {
   TestedArm tested = tested_arm(stream, 620);
   renew_noise(tested.field, stream);
   const Projection model = projection_of(tested.field);
-  const NullNoise noise(tested.field, model);
   std::vector<std::size_t> poses;
   std::vector<Eigen::Index> rows;
   for (std::size_t pose = 0; pose < 100; ++pose) {
@@ -100,8 +99,10 @@ TEST(NullResiduals, OfSomePosesScatterAsIfAllHadBeenDrawn) {
     for (Eigen::Index row = 0; row < 3; ++row) rows.push_back(tested.field.first_row[pose] + row);
   }
   constexpr Eigen::Index kDraws = 2000;
-  const Eigen::MatrixXd some = NullResiduals(noise, poses).draw(kDraws, stream);
-  const Eigen::MatrixXd all = noise.residuals(kDraws, rows, stream);
+  const NullResiduals drawn = null_residuals(tested.field, model, poses);
+  ASSERT_GT(drawn.others_root.size(), 0);
+  const NullResiduals whole{drawn.noise, poses, model.basis(), model.prior_basis(), {}, model.squares()};
+  const Eigen::MatrixXd some = drawn.draw(kDraws, stream), all = whole.draw(kDraws, stream);
   EXPECT_NEAR(some.squaredNorm() / all.squaredNorm(), 1.0, 0.01);
   // Along what the model follows, where the other poses' say shows most.
   const Eigen::MatrixXd basis = model.basis()(rows, Eigen::all);

@@ -36,9 +36,11 @@ inline bool is_backlash_of_joint_2(const Effect& effect) {
 }
 
 /// The whole calibration of `data`, without files and processes.
-inline CalibrateResult calibrate_in_memory(const DataSet& data, const Job& job, int workers = 2) {
+inline CalibrateResult calibrate_in_memory(const DataSet& data, const Job& job, int workers = 2,
+                                           bool share_draws = false) {
   const std::atomic<bool> interrupt{false};
   CalibrateOptions options;
+  options.share_draws = share_draws;
   return calibrate(
       data, job, [workers] { return std::make_unique<InMemoryWorkerPool>(workers); }, interrupt, options);
 }

@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-namespace demecal::inline fitting {
+namespace demecal::inline products {
 
 /// Matrices whose rows are the measured numbers, pose by pose.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -21,4 +21,4 @@ Eigen::MatrixXd square_product(const RowsOf& rows);
 /// left factors, where left has as many columns as `factors` has rows.
 RowMatrix product(const RowsOf& left, const Eigen::Ref<const Eigen::MatrixXd>& factors);
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline products

@@ -1,4 +1,4 @@
-#include "fitting/tall_products.hpp"
+#include "products/tall_products.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -10,7 +10,7 @@
 #include "pieces/pieces.hpp"
 #include "primitives/elementary.hpp"
 
-namespace demecal::inline fitting {
+namespace demecal::inline products {
 namespace {
 
 // A tile of the product is summed up in registers, term after term, and a term is rounded twice: so there are the same
@@ -263,4 +263,4 @@ RowMatrix product(const RowsOf& left, const Eigen::Ref<const Eigen::MatrixXd>& f
   return result;
 }
 
-}  // namespace demecal::inline fitting
+}  // namespace demecal::inline products

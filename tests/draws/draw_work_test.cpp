@@ -1,0 +1,124 @@
+// Draws are the same to the bit wherever their numbers are, and received numbers that are of no draws are refused.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "draws/draw_work.hpp"
+#include "random/random_stream.hpp"
+#include "random_works.hpp"
+
+namespace demecal {
+namespace {
+
+std::vector<DrawInputs> inputs_of_all_kinds(std::uint64_t seed) {
+  RandomWorks works(seed);
+  return {works.agreements(false).inputs(), works.agreements(true).inputs(), works.gains()->work->inputs()};
+}
+
+void expect_same_elsewhere(const DrawWork& work) {
+  const DrawInputs inputs = work.inputs();
+  ASSERT_EQ(find_fault(inputs), std::nullopt);
+  const std::unique_ptr<DrawWork> elsewhere = draw_work(inputs);
+  EXPECT_EQ(elsewhere->inputs(), inputs);
+  ASSERT_EQ(elsewhere->pieces(), work.pieces());
+  ASSERT_EQ(inputs.pieces(), work.pieces());
+  EXPECT_EQ(make_draws(*elsewhere), make_draws(work));
+  for (std::size_t piece = work.pieces(); piece-- > 0;) {
+    EXPECT_EQ(elsewhere->piece(piece), work.piece(piece)) << piece;
+    EXPECT_EQ(work.piece(piece).size(), inputs.numbers_of_piece(piece));
+  }
+}
+
+TEST(Draws, AreTheSameWhereverTheirNumbersAre) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    RandomWorks works(seed);
+    expect_same_elsewhere(works.agreements(false));
+    expect_same_elsewhere(works.agreements(true));
+    expect_same_elsewhere(*works.gains()->work);
+  }
+}
+
+TEST(Draws, OfAPieceDependOnNoOther) {
+  RandomWorks few(7), many(7);
+  const AgreementDraws one = few.agreements(true, 32), three = many.agreements(true, 96);
+  ASSERT_EQ(one.pieces(), 1U);
+  ASSERT_EQ(three.pieces(), 3U);
+  EXPECT_EQ(one.piece(0), three.piece(0));
+  EXPECT_NE(three.piece(0), three.piece(1));
+}
+
+TEST(Draws, ThatLackAListOrATableAreRefused) {
+  for (const DrawInputs& whole : inputs_of_all_kinds(1)) {
+    for (std::size_t missing = 0; missing < whole.lists.size(); ++missing) {
+      DrawInputs inputs = whole;
+      inputs.lists.erase(inputs.lists.begin() + static_cast<std::ptrdiff_t>(missing));
+      EXPECT_NE(find_fault(inputs), std::nullopt) << missing;
+    }
+    for (std::size_t missing = 0; missing < whole.tables.size(); ++missing) {
+      DrawInputs inputs = whole;
+      inputs.tables.erase(inputs.tables.begin() + static_cast<std::ptrdiff_t>(missing));
+      EXPECT_NE(find_fault(inputs), std::nullopt) << missing;
+    }
+  }
+}
+
+TEST(Draws, OfNumbersThatAreNotFiniteAreRefused) {
+  for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+    for (const DrawInputs& whole : inputs_of_all_kinds(2)) {
+      for (std::size_t table = 0; table < whole.tables.size(); ++table) {
+        DrawInputs inputs = whole;
+        if (inputs.tables[table].numbers.empty()) continue;
+        inputs.tables[table].numbers.back() = bad;
+        EXPECT_NE(find_fault(inputs), std::nullopt) << table;
+      }
+    }
+  }
+}
+
+/// Whatever was changed on the way, they are refused or can be made.
+TEST(Draws, OfAnyNumbersAreRefusedOrMade) {
+  RandomStream random{98};
+  int refused = 0, made = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    for (DrawInputs inputs : inputs_of_all_kinds(seed)) {
+      const std::size_t list = random.index(inputs.lists.size()), table = random.index(inputs.tables.size());
+      switch (random.index(6)) {
+        case 0:
+          inputs.lists[list].push_back(static_cast<std::uint32_t>(random.index(100)));
+          break;
+        case 1:
+          if (!inputs.lists[list].empty())
+            inputs.lists[list][random.index(inputs.lists[list].size())] = static_cast<std::uint32_t>(random.index(100));
+          break;
+        case 2:
+          inputs.tables[table].rows = static_cast<std::uint32_t>(random.index(50));
+          break;
+        case 3:
+          inputs.tables[table].numbers.resize(random.index(50), 1.0);
+          break;
+        case 4:
+          inputs.draws = static_cast<std::uint32_t>(random.index(40));
+          break;
+        default:
+          for (double& number : inputs.tables[table].numbers) number = random.real(-2.0, 2.0);
+      }
+      if (find_fault(inputs)) {
+        ++refused;
+        continue;
+      }
+      const std::unique_ptr<DrawWork> work = draw_work(inputs);
+      for (std::size_t piece = 0; piece < work->pieces(); ++piece)
+        EXPECT_EQ(work->piece(piece).size(), inputs.numbers_of_piece(piece));
+      ++made;
+    }
+  }
+  EXPECT_GT(refused, 40);
+  EXPECT_GT(made, 40);
+}
+
+}  // namespace
+}  // namespace demecal
