@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration/evolver.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "data/data_set.hpp"
 #include "effects/effect.hpp"
@@ -30,6 +31,18 @@ std::string effects_text(const std::vector<Effect>& effects, const Robot& robot)
 /// InputError at a kind outside the catalogue, an unknown key, a joint the robot has not, a missing coefficient or
 /// setting.
 std::vector<Effect> read_effects(const YamlNode& list, const Robot& robot);
+
+/// The key `shared_functions`, where functions were looked for, be none found.
+std::string functions_text(const CalibratedModel& model);
+
+/// The key `corrections`, with one item a joint.
+std::string corrections_text(const CalibratedModel& model);
+
+/// The functions of the key's value; nothing where the file lacks it (null). Throws InputError.
+KnownFunctions read_functions(const YamlNode* list);
+
+/// Reads the key's value into a model whose chain and functions are already read. Throws InputError.
+void read_corrections(const YamlNode& list, CalibratedModel& model);
 
 /// The keys `measured_ranges`, `measured_gaps`, `pose_counts`, `pose_marks` and `posterior`, each as far as the model
 /// has it.
