@@ -134,7 +134,7 @@ std::vector<Pairs> circumstances(const ResidualField& field, const std::vector<s
 struct JointColumns {
   RowMatrix columns, lengths;
 };
-JointColumns columns_of_joints(const ResidualField& field, const std::vector<std::size_t>& poses, const Chain& chain) {
+JointColumns moved_by_joints(const ResidualField& field, const std::vector<std::size_t>& poses, const Chain& chain) {
   Eigen::Index rows = 0;
   for (const std::size_t pose : poses) rows += field.rows_of_pose(pose);
   JointColumns joints{RowMatrix(rows, chain.size()), RowMatrix(static_cast<Eigen::Index>(poses.size()), chain.size())};
@@ -162,7 +162,7 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   if (all.empty()) return 1.0;
   NullResiduals of_noise = null_residuals(field, model, poses);
   const Eigen::VectorXd residual = model.residual()(of_noise.rows());
-  JointColumns joints = columns_of_joints(field, poses, chain);
+  JointColumns joints = moved_by_joints(field, poses, chain);
   const AgreementDraws work(std::move(of_noise), std::move(joints.columns), std::move(joints.lengths), all,
                             static_cast<std::uint32_t>(draws), random.name());
   const Eigen::VectorXd seen = work.agreements(residual);
