@@ -101,6 +101,19 @@ TEST(BackwardStep, LeavesAModelOfNeededEffectsAsItIs) {
   EXPECT_TRUE(outcome.dropped.empty());
 }
 
+TEST(LeavesMore, IsSaidOfAModelThatErrsClearlyMoreWhateverAPoseFarOutSays) {
+  RandomStream stream{90, 5};
+  KnownArm arm = loose_arm(stream);
+  const DiagnosisProblem problem{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  const DiagnosedModel with = model_with(problem, arm, {kBacklash}), without = model_with(problem, arm, {});
+  for (const double off_m : {0.0, 0.1}) {
+    if (off_m > 0.0) *arm.data.poses[7].position_m += Eigen::Vector3d(off_m, 0.0, 0.0);
+    EXPECT_TRUE(leaves_more(problem, without, with)) << off_m;
+    EXPECT_FALSE(leaves_more(problem, with, without)) << off_m;
+    EXPECT_FALSE(leaves_more(problem, with, with)) << off_m;
+  }
+}
+
 constexpr DeclaredModel kDeclared{
     .registration = true, .tool = true, .joint_offset = true, .geometry = false, .joint_corrections = true};
 
