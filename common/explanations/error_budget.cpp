@@ -85,7 +85,7 @@ class JudgedSets {
 
   /// What each set is without one of its causes. Sets were searched for by the fitted poses, in which some causes
   /// hardly show: such a set may judge far better than what was found of as many causes. Where it does a little
-  /// better, that is chance as often as not.
+  /// better, that may be chance.
   void offer_without_causes(const ExplanationProblem& problem) {
     constexpr double kFarBetter = 0.8;       ///< ratio of rms errors
     constexpr std::size_t kMostCauses = 12;  ///< more than a person looks at are left as they are

@@ -243,7 +243,7 @@ std::string front_sentence(const Report& report) {
                      chosen->causes, chosen->causes == 1 ? "" : "s", *chosen->validation_rms_mm, fewer, more,
                      errs_more
                          ? " That fewer leave less here is no reason to leave one out: the calibration poses show "
-                           "each, and so small a difference on these is chance as often as not."
+                           "each, and so small a difference on these may be chance."
                          : "");
 }
 
