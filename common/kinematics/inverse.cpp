@@ -8,6 +8,7 @@
 
 #include "decompositions/decompositions.hpp"
 #include "kinematics/angles.hpp"
+#include "kinematics/ended_inverse.hpp"
 
 namespace demecal::inline kinematics {
 namespace {
@@ -139,16 +140,26 @@ PoseError pose_error(const Eigen::Isometry3d& pose, const Eigen::Isometry3d& tar
 
 InverseSolution inverse(const PoseFunction& model, const Eigen::Isometry3d& target, const JointVector& start,
                         const InverseOptions& options) {
+  return inverse_unless([](const JointVector&) { return false; }, model, target, start, options);
+}
+
+InverseSolution inverse_unless(const std::function<bool(const JointVector&)>& ends_at, const PoseFunction& model,
+                               const Eigen::Isometry3d& target, const JointVector& start,
+                               const InverseOptions& options) {
   Iterate iterate = iterate_at(model, target, start);
   NewtonStep step = newton_step(iterate.reached.jacobian, iterate.error, options);
   const double smallest_singular = step.smallest_singular;
+  bool ended = false;
   for (int iteration = 0; iteration < options.max_iterations && !within_tolerance(iterate.error, options);
        ++iteration) {
     if (iteration > 0) step = newton_step(iterate.reached.jacobian, iterate.error, options);
     if (!newton_advance(step.dq, model, target, options, iterate)) break;
+    ended = ends_at(iterate.q);
+    if (ended) break;
   }
   const bool singular = smallest_singular < options.singular_below;
-  const InverseStatus status = within_tolerance(iterate.error, options)          ? InverseStatus::converged
+  const InverseStatus status = ended                                             ? InverseStatus::diverged
+                               : within_tolerance(iterate.error, options)        ? InverseStatus::converged
                                : !iterate.error.allFinite()                      ? InverseStatus::diverged
                                : singular || iterate.q.size() - options.held < 6 ? InverseStatus::damped
                                                                                  : InverseStatus::diverged;

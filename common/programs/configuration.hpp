@@ -85,6 +85,11 @@ class ConfigurationFinder {
   int held_ = 0;                                 ///< so many joints, from the base on, stand where the target has them
 };
 
+/// How many regular configurations an arm can have for one pose, told by its axes at any joints: 8 where the wrist's
+/// three axes meet in a point (Pieper, 1968: four places of the other joints, two of the wrist), or axes 2, 3 and 4 are
+/// parallel and 5 and 6 meet (two places of joint 1, of the wrist and of the elbow); 16 of other six revolute joints.
+std::size_t most_configurations(const Chain& arm, const JointVector& joints);
+
 /// Nothing where the arm is not of six revolute joints (behind rails or none) with parallel axes 2 and 3 and a wrist
 /// whose axes meet, or where one of the positions is so near to a singular one that a side cannot be told.
 std::optional<bool> same_posture(const Chain& arm, const JointVector& one, const JointVector& other);

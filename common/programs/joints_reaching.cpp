@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinematics/angles.hpp"
+#include "kinematics/ended_inverse.hpp"
 #include "kinematics/inverse.hpp"
 #include "programs/nominal_joints.hpp"
 
@@ -17,7 +18,21 @@ namespace demecal::inline programs {
 namespace {
 
 constexpr double kAlike = 1e-3;            ///< rad or m
-constexpr std::size_t kMostBranches = 16;  ///< that six revolute joints can have
+constexpr std::size_t kMostBranches = 16;  ///< that are looked for
+constexpr double kRegular = 0.03;          ///< smallest singular value (lengths in m) of joints far from singular ones
+
+/// By how much the Jacobian (lengths in m) can change at most for a change of six turning joints behind `held` others,
+/// per rad: its derivatives by joint i of column j are no longer than the way from the farther joint to the tool, and 1
+/// in its lower half; what the logarithm of the missing turn adds is below 3.
+double most_curvature(const Chain& arm, int held) {
+  double square = 0.0, way_m = arm.tool_m.norm() + arm.flange.translation().norm();
+  for (int joint = arm.size() - 1; joint >= held; --joint) {
+    const Joint& link = arm.joints[static_cast<std::size_t>(joint)];
+    way_m += std::abs(link.a_m) + std::abs(link.d_m);
+    square += (2.0 * (joint - held) + 1.0) * (way_m * way_m + 1.0);
+  }
+  return std::sqrt(square) + 3.0;
+}
 
 /// Whether two joint positions are one but for whole turns.
 bool alike(const Chain& arm, const JointVector& one, const JointVector& other) {
@@ -32,15 +47,21 @@ bool alike(const Chain& arm, const JointVector& one, const JointVector& other) {
 class BranchSearch {
  public:
   BranchSearch(const Chain& arm, const Eigen::Isometry3d& tool, const JointVector& reference, int held)
-      : arm_(arm), model_(nominal_pose(arm)), tool_(tool), reference_(reference), held_(held) {}
+      : arm_(arm), model_(nominal_pose(arm)), tool_(tool), reference_(reference), held_(held) {
+    const auto turns = [](const Joint& joint) { return is_revolute(joint); };
+    const bool six_turn = arm.size() == held + 6 && std::all_of(arm.joints.begin() + held, arm.joints.end(), turns);
+    if (!six_turn || !arm.couplings.empty()) return;
+    curvature_ = most_curvature(arm, held);
+    most_ = most_configurations(arm, reference);
+  }
 
   std::vector<JointVector> all() {
     try_from(reference_);
-    for (int index = 1; index <= kSearchStarts && found_.size() < kMostBranches; ++index) {
+    for (int index = 1; index <= kSearchStarts && !complete(); ++index) {
       try_from(search_start(arm_, index, reference_, held_));
     }
     // Neighbours of what was found: the wrist turned over, the elbow and the shoulder on their other side.
-    for (std::size_t i = 0; i < found_.size() && arm_.size() - held_ >= 6 && found_.size() < kMostBranches; ++i) {
+    for (std::size_t i = 0; i < found_.size() && arm_.size() - held_ >= 6 && !complete(); ++i) {
       try_mirrored(found_[i]);
     }
     return within_limits();
@@ -48,10 +69,36 @@ class BranchSearch {
 
  private:
   void try_from(const JointVector& start) {
-    const InverseSolution solution = inverse(model_, tool_, start, {.held = held_});
+    const auto known_end = [this](const JointVector& joints) { return leads_to_known(joints); };
+    const InverseSolution solution = inverse_unless(known_end, model_, tool_, start, {.held = held_});
     if (solution.status != InverseStatus::converged) return;
     const auto same = [&](const JointVector& known) { return alike(arm_, known, solution.q); };
-    if (std::none_of(found_.begin(), found_.end(), same)) found_.push_back(solution.q);
+    if (std::any_of(found_.begin(), found_.end(), same)) return;
+    found_.push_back(solution.q);
+    basins_.push_back(0.0);
+    if (curvature_ == 0.0) return;
+    const double singular = inverse(model_, tool_, solution.q, {.held = held_}).smallest_singular;
+    if (singular < kRegular) return;
+    basins_.back() = singular / (3.0 * curvature_);
+    ++regular_;
+  }
+
+  /// Whether no others can be found: as many regular configurations as there are leave no room for singular ones.
+  bool complete() const { return found_.size() >= kMostBranches || regular_ >= most_; }
+
+  /// Whether Newton's iteration from these joints converges to what was found, as it does from less than two thirds of
+  /// the root's smallest singular value over the curvature (Rheinboldt, 1974; Traub and Wozniakowski, 1979).
+  bool leads_to_known(const JointVector& joints) const {
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+      double square = 0.0;
+      const double allowed = basins_[i] * basins_[i];
+      for (Eigen::Index joint = held_; joint < joints.size() && square < allowed; ++joint) {
+        const double apart = wrap_near(joints[joint] - found_[i][joint], 0.0);
+        square += apart * apart;
+      }
+      if (square < allowed) return true;
+    }
+    return false;
   }
 
   void try_mirrored(const JointVector& joints) {
@@ -89,7 +136,11 @@ class BranchSearch {
   const Eigen::Isometry3d& tool_;
   const JointVector& reference_;
   int held_;
+  double curvature_ = 0.0;            ///< 0: not of six turning joints
+  std::size_t most_ = kMostBranches;  ///< regular ones that there can be
+  std::size_t regular_ = 0;
   std::vector<JointVector> found_;
+  std::vector<double> basins_;  ///< of each that was found: so near to it searches lead there
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "kinematics/angles.hpp"
 #include "kinematics/forward.hpp"
+#include "kinematics/joint_kinematics.hpp"
 
 namespace demecal::inline programs {
 namespace {
@@ -57,8 +58,10 @@ bool better(const JointSolution& one, const JointSolution& other) {
 }  // namespace
 
 PoseFunction nominal_pose(const Chain& arm) {
-  return [&arm](const JointVector& q) {
-    return PoseAndJacobian{forward(arm, q) * Eigen::Translation3d(arm.tool_m), joint_jacobian(arm, q, arm.tool_m)};
+  return [turns = FixedTurns(arm)](const JointVector& q) {
+    const Eigen::Vector3d& tool_m = turns.chain().tool_m;
+    const JointKinematics at = joint_kinematics(turns, q, tool_m);
+    return PoseAndJacobian{at.flange * Eigen::Translation3d(tool_m), at.joints};
   };
 }
 
@@ -135,9 +138,10 @@ std::optional<JointVector> nominal_joints(const Chain& arm, const Eigen::Isometr
 
 std::optional<JointVector> joints_at_point(const Chain& arm, const Eigen::Vector3d& point_m,
                                            const JointVector& reference) {
-  const PoseFunction model = [&arm](const JointVector& q) {
-    PoseAndJacobian at{Eigen::Isometry3d(Eigen::Translation3d(tool_position(arm, q))),
-                       joint_jacobian(arm, q, arm.tool_m)};
+  const FixedTurns turns(arm);
+  const PoseFunction model = [&](const JointVector& q) {
+    const JointKinematics tool = joint_kinematics(turns, q, arm.tool_m);
+    PoseAndJacobian at{Eigen::Isometry3d(Eigen::Translation3d(tool.flange * arm.tool_m)), tool.joints};
     at.jacobian.bottomRows<3>().setZero();
     return at;
   };

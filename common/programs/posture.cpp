@@ -78,7 +78,28 @@ std::optional<std::array<double, 3>> sides_of(const Chain& arm, const JointVecto
                                axes[1].direction.dot(upper.cross(fore)) / lengths, wrist_sine(axes)};
 }
 
+bool are_parallel(const JointAxis& one, const JointAxis& other) {
+  constexpr double kParallel = 1e-6;
+  return one.direction.cross(other.direction).norm() < kParallel;
+}
+
+bool meet(const JointAxis& one, const JointAxis& other) {
+  constexpr double kCross = 1e-3, kMeet_m = 1e-6;
+  const Eigen::Vector3d across = one.direction.cross(other.direction);
+  return across.norm() > kCross && std::abs((one.point - other.point).dot(across)) < kMeet_m * across.norm();
+}
+
 }  // namespace
+
+std::size_t most_configurations(const Chain& arm, const JointVector& joints) {
+  constexpr std::size_t kOfMostArms = 8, kOfAll = 16;
+  constexpr double kMeet_m = 1e-6;
+  if (!has_six_axes(arm)) return kOfAll;
+  const std::array<JointAxis, kSix> axes = axes_at(arm, joints);
+  const bool spherical = meet(axes[3], axes[4]) && distance_from_axis(axes[5], wrist_of(axes)) < kMeet_m;
+  const bool planar = are_parallel(axes[1], axes[2]) && are_parallel(axes[2], axes[3]) && meet(axes[4], axes[5]);
+  return spherical || planar ? kOfMostArms : kOfAll;
+}
 
 std::optional<bool> same_side(const Chain& arm, const JointVector& one, const JointVector& other, std::size_t part) {
   constexpr double kTold = 0.02;

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calibration/erring_arm.hpp"
@@ -50,19 +51,35 @@ struct IntervalTrial {
   double mean_radius_m = 0.0;
 };
 
-/// Fitted to the calibration poses, told by the validation poses; then fitted to both, where there are any.
+struct FittedArm {
+  CorrectedRobot robot;
+  FittedPosterior fitted;
+};
+
+FittedArm fitted_arm(const DataSet& data, const std::vector<std::size_t>& poses) {
+  CorrectedRobot robot = fit_declared(data, poses, kIntervalDeclared, nominal_robot(data)).robot;
+  FittedPosterior fitted = fitted_posterior(data, kIntervalDeclared, robot, poses);
+  return {std::move(robot), std::move(fitted)};
+}
+
+/// Fitted to the calibration poses, told by the validation poses.
+PredictionInterval told_interval(const DataSet& data, const FittedArm& unseen) {
+  return prediction_interval(data, unseen.fitted, unseen.robot);
+}
+PredictionInterval told_interval(const DataSet& data) {
+  return told_interval(data, fitted_arm(data, poses_of(data, PoseSet::calibration)));
+}
+
+/// Then fitted to both, where there are any.
 IntervalTrial interval_trial(const DataSet& data) {
   const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration), last = poses_of_last_fit(data);
-  const auto fitted = [&](const std::vector<std::size_t>& poses) {
-    return fit_declared(data, poses, kIntervalDeclared, nominal_robot(data)).robot;
-  };
-  const CorrectedRobot unseen = fitted(calibration), robot = fitted(last);
+  FittedArm arm = fitted_arm(data, calibration);
   IntervalTrial told;
-  told.interval = prediction_interval(data, fitted_posterior(data, kIntervalDeclared, unseen, calibration), unseen);
-  const Posterior posterior = fitted_posterior(data, kIntervalDeclared, robot, last).posterior;
+  told.interval = told_interval(data, arm);
+  if (last != calibration) arm = fitted_arm(data, last);
   for (const std::size_t pose : poses_of(data, PoseSet::accept)) {
-    const double radius_m = radius95_m(told.interval, posterior, robot, data, data.poses[pose]);
-    told.inside += tool_error_m(robot, data, data.poses[pose]) <= radius_m ? 1 : 0;
+    const double radius_m = radius95_m(told.interval, arm.fitted.posterior, arm.robot, data, data.poses[pose]);
+    told.inside += tool_error_m(arm.robot, data, data.poses[pose]) <= radius_m ? 1 : 0;
     told.mean_radius_m += radius_m / 60.0;
     ++told.accept;
   }
@@ -142,7 +159,7 @@ TEST(PredictionInterval, CountsWhatTheArmScattersByItselfAsItsErrorAndNotAsNoise
     RandomStream random{seed, 4713};
     for (MeasuredPose& pose : scattering.poses)
       for (double& angle : pose.joints) angle += kJoint_rad * random.normal();
-    const PredictionInterval own = interval_trial(steady).interval, with = interval_trial(scattering).interval;
+    const PredictionInterval own = told_interval(steady), with = told_interval(scattering);
     EXPECT_LT(own.model_error_m, 0.5 * kJoint_rad) << seed;
     EXPECT_GT(with.model_error_m, kJoint_rad) << seed;  // of levers of a metre
     EXPECT_LT(with.noise_m, 5.0 * kInstrument_m) << seed;
@@ -198,12 +215,12 @@ TEST(FittedPosterior, CountsErrorsThatNeighboursInTimeShare) {
 }
 
 TEST(PredictionInterval, SaysWhoseErrorsItComesFrom) {
-  const IntervalTrial told = interval_trial(judged_arm(60, 39, {}, 901)),
-                      fitted = interval_trial(judged_arm(60, 0, {}, 902));
-  EXPECT_FALSE(told.interval.fitted);
-  EXPECT_EQ(told.interval.poses, 39U);
-  EXPECT_TRUE(fitted.interval.fitted);
-  EXPECT_EQ(fitted.interval.poses, 60U);
+  const PredictionInterval told = told_interval(judged_arm(60, 39, {}, 901)),
+                           fitted = told_interval(judged_arm(60, 0, {}, 902));
+  EXPECT_FALSE(told.fitted);
+  EXPECT_EQ(told.poses, 39U);
+  EXPECT_TRUE(fitted.fitted);
+  EXPECT_EQ(fitted.poses, 60U);
 }
 
 TEST(PredictionInterval, TheRealArmIsNearerThanItsMeasurements) {

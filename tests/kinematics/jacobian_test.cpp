@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "kinematics/forward.hpp"
+#include "kinematics/joint_kinematics.hpp"
 #include "random_arm.hpp"
 
 namespace demecal {
@@ -79,6 +80,9 @@ TEST(DifferentialKinematics, AgreesWithItsPartsToTheBit) {
     EXPECT_EQ(all.flange.matrix(), forward(chain, q).matrix());
     EXPECT_EQ(all.joints, joint_jacobian(chain, q, point));
     EXPECT_EQ(all.links, link_jacobian(chain, q, point));
+    const JointKinematics few = joint_kinematics(FixedTurns(chain), q, point);
+    EXPECT_EQ(few.flange.matrix(), all.flange.matrix());
+    EXPECT_EQ(few.joints, all.joints);
   });
 }
 

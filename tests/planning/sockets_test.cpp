@@ -31,9 +31,7 @@ PlanRequest touching_request(std::optional<double> length_m) {
   return request;
 }
 
-TEST(PlannedSockets, AreTouchedByEveryPoseOfTheirName) {
-  const PlanRequest request = touching_request({});
-  const Plan plan = make_plan(request);
+void expect_touched_by_poses_of_their_name(const PlanRequest& request, const Plan& plan) {
   EXPECT_EQ(plan.counts[0], 36u);
   ASSERT_EQ(plan.sockets.size(), 3u);
   const FeasibleSpace space(request.robot, *request.cell);
@@ -77,15 +75,18 @@ TEST(PlannedSockets, StandInTheirBoxAsFarApartAsTheBlockHasThem) {
   }
 }
 
-TEST(PlannedSockets, AreAFunctionOfTheRequestAndTellMoreThanRandomPostures) {
-  const Plan plan = make_plan(touching_request(0.05)), again = make_plan(touching_request(0.05));
+void expect_function_of_request(const Plan& plan, const Plan& again) {
   ASSERT_EQ(plan.stops.size(), again.stops.size());
   for (std::size_t i = 0; i < plan.stops.size(); ++i) EXPECT_EQ(plan.stops[i].pose.joints, again.stops[i].pose.joints);
-  EXPECT_LT(plan.predicted.rms_m, plan.random_rms_m);
 }
 
-TEST(PlannedSockets, OfABlockTellTheScale) {
-  const Plan without = make_plan(touching_request({})), with = make_plan(touching_request(0.05));
+/// Plans for single sockets and for blocks of two, each made once for all that is claimed of it.
+TEST(PlannedSockets, AreTouchedByTheirPosesAFunctionOfTheRequestAndOfABlockTellTheScale) {
+  const PlanRequest single = touching_request({}), block = touching_request(0.05);
+  const Plan without = make_plan(single), with = make_plan(block);
+  expect_touched_by_poses_of_their_name(single, without);
+  expect_function_of_request(with, make_plan(block));
+  EXPECT_LT(with.predicted.rms_m, with.random_rms_m) << "random postures";
   EXPECT_LT(with.predicted.rms_m, 0.5 * without.predicted.rms_m);
   EXPECT_THAT(without.warnings, testing::Contains(testing::HasSubstr("scale")));
   EXPECT_THAT(with.warnings, testing::Not(testing::Contains(testing::HasSubstr("scale"))));
