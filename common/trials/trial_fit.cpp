@@ -28,13 +28,26 @@ double tukey_weight(double error_m, double deviation_m) {
   return share >= 1.0 ? 0.0 : (1 - share * share) * (1 - share * share);
 }
 
+/// What errors of unit deviation reach at a share of their rows, kept from one step to the next: the rank is mostly the
+/// same, and the quantile takes longer than all that it is divided into.
+class UnitErrors {
+ public:
+  double at(double share) {
+    if (share != share_) length_ = normal_length_quantile(3, share_ = share);
+    return length_;
+  }
+
+ private:
+  double share_ = -1.0, length_ = 0.0;
+};
+
 /// The scale as fit_base_and_tools states it.
-double deviation_of(std::vector<double> errors, double fitted_rows, double usual_m) {
+double deviation_of(std::vector<double> errors, double fitted_rows, double usual_m, UnitErrors& unit) {
   const auto n = static_cast<double>(errors.size());
   const double fitted = std::min(fitted_rows, n), rank = std::clamp(std::ceil(0.5 * (n + fitted)), 1.0, n);
   const auto at = errors.begin() + static_cast<std::ptrdiff_t>(rank - 1.0);
   std::nth_element(errors.begin(), at, errors.end());
-  const double raw_m = *at / normal_length_quantile(3, (rank - 0.5) / n);
+  const double raw_m = *at / unit.at((rank - 0.5) / n);
   const double deviation_m = std::sqrt((usual_m * usual_m + n * raw_m * raw_m) / (1.0 + n - fitted));
   return std::max(deviation_m, kSmallestScale_m);
 }
@@ -62,7 +75,7 @@ void register_station(const Trial& trial, const PlacedRows& placed, int station,
   }
 }
 
-void measure_errors(const Trial& trial, const PlacedRows& placed, TrialFit& fit) {
+void measure_errors(const Trial& trial, const PlacedRows& placed, UnitErrors& unit, TrialFit& fit) {
   fit.error_m.resize(trial.rows.size());
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
     fit.error_m[i] = (trial.rows[i].point_m - placed.point(fit, i, trial.rows[i])).norm();
@@ -73,7 +86,7 @@ void measure_errors(const Trial& trial, const PlacedRows& placed, TrialFit& fit)
     return;
   }
   fit.median_m = median(fit.error_m);
-  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.effective_parameters / 3.0, fit.usual_m);
+  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.effective_parameters / 3.0, fit.usual_m, unit);
 }
 
 double link_deviation(LinkParameter parameter) {
@@ -122,7 +135,8 @@ void move(TrialFit& fit, const ParameterPlaces& places, const Eigen::VectorXd& s
 
 /// Takes a Gauss-Newton step, with Tukey's weights if it is to be robust; false where none can be taken. The rows are
 /// placed at the fit's links, before and after.
-bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, PlacedRows& placed, TrialFit& fit) {
+bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, PlacedRows& placed, UnitErrors& unit,
+               TrialFit& fit) {
   const auto n = static_cast<Eigen::Index>(trial.rows.size());
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * n, places.size());
   Eigen::VectorXd error = Eigen::VectorXd::Zero(3 * n);
@@ -146,21 +160,22 @@ bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, P
   fit.effective_parameters = std::clamp(fit.covariance.cwiseProduct(by_points).sum(), 0.0, double(places.size()));
   move(fit, places, step);
   if (places.links) placed.place(fit.chain, trial.rows);
-  measure_errors(trial, placed, fit);
+  measure_errors(trial, placed, unit, fit);
   return true;
 }
 
-ParameterPlaces places_of(const Trial& trial, bool links) {
+ParameterPlaces places_in_equations(const Trial& trial, bool links) {
   return {trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), links};
 }
 
 /// Steps as long as they lower the median, twice over at most where they do not.
-TrialFit descend(const Trial& trial, const ParameterPlaces& places, PlacedRows placed, TrialFit fit, int steps) {
+TrialFit descend(const Trial& trial, const ParameterPlaces& places, PlacedRows placed, UnitErrors unit, TrialFit fit,
+                 int steps) {
   TrialFit best = fit;
   int worse = 0;
   for (int i = 0; i < steps && worse < 2; ++i) {
     const double before = fit.median_m;
-    if (!step_down(trial, places, true, placed, fit)) break;
+    if (!step_down(trial, places, true, placed, unit, fit)) break;
     worse = fit.median_m < 0.999 * before ? 0 : worse + 1;
     if (fit.median_m <= best.median_m) best = fit;
   }
@@ -186,8 +201,9 @@ TrialFit fit_base_and_tools(const Trial& trial, const PlacedRows& placed) {
   for (int station = 0; station < trial.stations; ++station) register_station(trial, placed, station, fit);
   fit.rows_per_pose = trial.rows_per_pose();
   fit.usual_m = kUsualShare * placed.reach_m(trial);
-  measure_errors(trial, placed, fit);
-  return descend(trial, places_of(trial, false), placed, std::move(fit), kPlacingSteps);
+  UnitErrors unit;
+  measure_errors(trial, placed, unit, fit);
+  return descend(trial, places_in_equations(trial, false), placed, unit, std::move(fit), kPlacingSteps);
 }
 
 TrialFit refit_base_and_tools(const Trial& trial, TrialFit start) {
@@ -196,23 +212,27 @@ TrialFit refit_base_and_tools(const Trial& trial, TrialFit start) {
 }
 
 TrialFit refit_base_and_tools(const Trial& trial, TrialFit start, const PlacedRows& placed) {
-  measure_errors(trial, placed, start);
-  return descend(trial, places_of(trial, false), placed, std::move(start), kSearchSteps);
+  UnitErrors unit;
+  measure_errors(trial, placed, unit, start);
+  return descend(trial, places_in_equations(trial, false), placed, unit, std::move(start), kSearchSteps);
 }
 
 TrialFit fit_arm(const Trial& trial, const TrialFit& placed) {
-  return descend(trial, places_of(trial, true), PlacedRows(placed.chain, trial.rows, true), placed, kArmSteps);
+  return descend(trial, places_in_equations(trial, true), PlacedRows(placed.chain, trial.rows, true), {}, placed,
+                 kArmSteps);
 }
 
 TrialFit fit_arm_to_all(const Trial& trial, const TrialFit& placed) {
   PlacedRows rows(placed.chain, trial.rows, true);
+  UnitErrors unit;
   TrialFit fit = placed;
-  for (int i = 0; i < kArmSteps && step_down(trial, places_of(trial, true), false, rows, fit); ++i) continue;
+  for (int i = 0; i < kArmSteps && step_down(trial, places_in_equations(trial, true), false, rows, unit, fit); ++i)
+    continue;
   return fit;
 }
 
 LinearizedTrial linearized(const Trial& trial, const TrialFit& fit) {
-  const ParameterPlaces places = places_of(trial, true);
+  const ParameterPlaces places = places_in_equations(trial, true);
   WeightedEquations priors{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
   add_priors(trial, fit, places, priors);
   const PlacedRows placed(fit.chain, trial.rows, true);
