@@ -110,12 +110,16 @@ bool has_station(const StationZero& zero, const TrialRow& row) {
   return std::ranges::find(zero.stations, row.station) != zero.stations.end();
 }
 
-/// What moves the joint at those stations alone.
-Eigen::VectorXd column_at(const Trial& trial, const TrialFit& fit, const StationZero& zero) {
-  Eigen::VectorXd column = joint_column(trial, fit, zero.joint);
+/// What moves the joint at those stations alone, of what moves it at all of them.
+Eigen::VectorXd at_stations(Eigen::VectorXd column, const Trial& trial, const std::vector<int>& stations) {
   for (std::size_t i = 0; i < trial.rows.size(); ++i)
-    if (!has_station(zero, trial.rows[i])) column.segment<3>(3 * static_cast<Eigen::Index>(i)).setZero();
+    if (std::ranges::find(stations, trial.rows[i].station) == stations.end())
+      column.segment<3>(3 * static_cast<Eigen::Index>(i)).setZero();
   return column;
+}
+
+Eigen::VectorXd column_at(const Trial& trial, const TrialFit& fit, const StationZero& zero) {
+  return at_stations(joint_column(trial, fit, zero.joint), trial, zero.stations);
 }
 
 /// Every station behind the first, alone and with all that follow it; of more than two the first one too.
@@ -132,12 +136,13 @@ std::vector<std::vector<int>> groups_of_stations(int count) {
 
 StationZero likeliest_zero(const Trial& trial, const TrialFit& fit) {
   const ProjectedColumns projected(trial, fit);
+  const Eigen::MatrixXd columns = joint_columns(trial, fit, [](std::size_t, int) { return 1.0; });
   StationZero best;
   double most = 0.0;
   for (const std::vector<int>& stations : groups_of_stations(trial.stations)) {
     for (int joint = 0; joint < trial.chain.size(); ++joint) {
       StationZero one{.joint = joint, .stations = stations};
-      const Eigen::VectorXd column = column_at(trial, fit, one);
+      const Eigen::VectorXd column = at_stations(columns.col(joint), trial, stations);
       const double with_error = projected.with_error(column)[0], with_itself = projected.with_itself(column)(0, 0);
       const double gain = 0.5 * with_error * with_error / with_itself;
       if (gain <= most) continue;
