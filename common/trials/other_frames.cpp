@@ -23,15 +23,19 @@ constexpr double kOtherFrameFall = 0.25;   ///< kLeastFall where a fitted model 
 
 /// The tool points that bring the rows' predictions nearest to what was measured, large errors counting less.
 std::vector<Eigen::Vector3d> own_tools(const TrialFit& fit, std::span<const TrialRow> rows) {
+  std::vector<Eigen::Isometry3d> flanges;
+  const FixedTurns turns(fit.chain);
+  for (const TrialRow& row : rows)
+    flanges.push_back(fit.sensor_from_base[static_cast<std::size_t>(row.station)] * forward(turns, row.joints));
   std::vector<Eigen::Vector3d> tools = fit.tools_m;
   for (std::size_t target = 0; target < tools.size(); ++target) {
     for (int repetition = 0; repetition < 8; ++repetition) {
       Eigen::Matrix3d information = 1e-9 * Eigen::Matrix3d::Identity();
       Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-      for (const TrialRow& row : rows) {
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const TrialRow& row = rows[i];
         if (static_cast<std::size_t>(row.target) != target) continue;
-        const Eigen::Isometry3d flange =
-            fit.sensor_from_base[static_cast<std::size_t>(row.station)] * forward(fit.chain, row.joints);
+        const Eigen::Isometry3d& flange = flanges[i];
         const Eigen::Vector3d error = row.point_m - flange * tools[target];
         const double weight = 1.0 / std::max(error.norm(), 1e-5);
         information += weight * Eigen::Matrix3d::Identity();

@@ -1,12 +1,13 @@
 #include "trials/projected_columns.hpp"
 
-#include "kinematics/chain.hpp"
-
 #include <algorithm>
 #include <cstddef>
 #include <iterator>
 #include <utility>
 #include <vector>
+
+#include "kinematics/chain.hpp"
+#include "kinematics/forward.hpp"
 
 namespace demecal::inline trials {
 namespace {
@@ -31,16 +32,30 @@ ProjectedColumns::ProjectedColumns(const Trial& trial, const TrialFit& fit) : li
   information.diagonal() += linear_.prior;
   factor_ = PivotedCholesky(information);
   weighted_ = weighted;
-  error_ = factor_.solve(weighted_.transpose() * linear_.error_m);
+  weighted_error_ = weights_.cwiseProduct(linear_.error_m);
+  taken_ = weighted_ * factor_.solve(weighted_.transpose() * linear_.error_m);
 }
 
 Eigen::VectorXd ProjectedColumns::with_error(const Eigen::MatrixXd& columns) const {
-  return columns.transpose() * weights_.cwiseProduct(linear_.error_m) - columns.transpose() * (weighted_ * error_);
+  return columns.transpose() * weighted_error_ - columns.transpose() * taken_;
 }
 
 Eigen::MatrixXd ProjectedColumns::with_itself(const Eigen::MatrixXd& columns) const {
   const Eigen::MatrixXd shared = weighted_.transpose() * columns;
   return columns.transpose() * weights_.asDiagonal() * columns - shared.transpose() * factor_.solve(shared);
+}
+
+ProjectedColumns::Products ProjectedColumns::of_column(const Eigen::VectorXd& column, std::size_t first) const {
+  // Sums run in several lanes: where whole turns of them are left out, each lane goes on as it would have.
+  constexpr Eigen::Index kLanes = 8;
+  const Eigen::Index behind = column.size() - 3 * static_cast<Eigen::Index>(first) / kLanes * kLanes;
+  const Eigen::MatrixXd there = column.tail(behind);
+  const Eigen::MatrixXd shared = weighted_.bottomRows(behind).transpose() * there;
+  const Eigen::VectorXd error =
+      there.transpose() * weighted_error_.tail(behind) - there.transpose() * taken_.tail(behind);
+  const Eigen::MatrixXd itself =
+      there.transpose() * weights_.tail(behind).asDiagonal() * there - shared.transpose() * factor_.solve(shared);
+  return {error[0], itself(0, 0)};
 }
 
 Eigen::VectorXd ProjectedColumns::coefficients(const Eigen::MatrixXd& columns) const {
@@ -71,12 +86,18 @@ double ProjectedColumns::gain(const Eigen::MatrixXd& columns) const {
 
 Eigen::VectorXd joint_column(const Trial& trial, const TrialFit& fit, int joint) {
   constexpr double kDerivativeStep = 1e-6;  // rad or m
+  const FixedTurns turns(fit.chain);
+  const auto point = [&](const TrialRow& row, const JointVector& joints) -> Eigen::Vector3d {
+    return fit.sensor_from_base[static_cast<std::size_t>(row.station)] *
+           (forward(turns, joints) * fit.tools_m[static_cast<std::size_t>(row.target)]);
+  };
   Eigen::VectorXd column(3 * static_cast<Eigen::Index>(trial.rows.size()));
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
-    TrialRow row = trial.rows[i];
-    row.joints[joint] += kDerivativeStep;
+    const TrialRow& row = trial.rows[i];
+    JointVector joints = row.joints;
+    joints[joint] += kDerivativeStep;
     column.segment<3>(3 * static_cast<Eigen::Index>(i)) =
-        (predicted_point(fit, row) - predicted_point(fit, trial.rows[i])) / kDerivativeStep;
+        (point(row, joints) - point(row, row.joints)) / kDerivativeStep;
   }
   return column;
 }

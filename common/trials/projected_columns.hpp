@@ -21,6 +21,11 @@ class ProjectedColumns {
   Eigen::VectorXd with_error(const Eigen::MatrixXd& columns) const;
   /// b' W c of the same, for all pairs of columns.
   Eigen::MatrixXd with_itself(const Eigen::MatrixXd& columns) const;
+  /// Both of one column by itself that is nothing in all rows before `first`: the same numbers, without those rows.
+  struct Products {
+    double with_error = 0.0, with_itself = 0.0;
+  };
+  Products of_column(const Eigen::VectorXd& column, std::size_t first) const;
   /// Log likelihood, in nats, that the columns gain together.
   double gain(const Eigen::MatrixXd& columns) const;
   /// What `columns` gain beside `others`, from which they may hardly differ.
@@ -30,7 +35,8 @@ class ProjectedColumns {
 
  private:
   LinearizedTrial linear_;
-  Eigen::VectorXd weights_, error_;
+  Eigen::VectorXd weights_, weighted_error_;
+  Eigen::VectorXd taken_;  ///< by base, tools and links of the errors, weighted
   Eigen::MatrixXd weighted_;
   PivotedCholesky factor_;
 };

@@ -9,6 +9,7 @@
 #include "random/distributions.hpp"
 #include "trials/drift.hpp"
 #include "trials/explanations.hpp"
+#include "trials/placed_rows.hpp"
 #include "trials/point_pairs.hpp"
 #include "trials/projected_columns.hpp"
 #include "trials/trial_fit.hpp"
@@ -27,17 +28,19 @@ constexpr int kToolRefits = 3;
 /// How points move with each of the tools that change, three columns a tool.
 Eigen::MatrixXd tool_columns(const Trial& trial, const TrialFit& fit, const std::vector<int>& tools) {
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(3 * std::ssize(trial.rows), 3 * std::ssize(tools));
+  const PlacedRows placed(fit.chain, trial.rows, false);
+  TrialFit other = fit;
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
     const TrialRow& row = trial.rows[i];
     const auto tool = std::ranges::find(tools, row.target);
     if (tool == tools.end()) continue;
-    const Eigen::Vector3d point = predicted_point(fit, row);
-    TrialFit other = fit;
+    const Eigen::Vector3d point = placed.point(fit, i, row);
+    Eigen::Vector3d& moved = other.tools_m[static_cast<std::size_t>(row.target)];
+    moved = fit.tools_m[static_cast<std::size_t>(row.target)];
     for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      Eigen::Vector3d& moved = other.tools_m[static_cast<std::size_t>(row.target)];
       moved[axis] += 1.0;
       columns.block<3, 1>(3 * static_cast<Eigen::Index>(i), 3 * (tool - tools.begin()) + axis) =
-          predicted_point(other, row) - point;
+          placed.point(other, i, row) - point;
       moved[axis] -= 1.0;
     }
   }
@@ -120,14 +123,15 @@ Trial with_other_tools(Trial trial, std::size_t row, const std::vector<OtherTool
 /// The row from which the other tools fit better than the given ones, by a fit to both; as many as rows: none.
 std::size_t best_tool_row(const Trial& trial, const TrialFit& both, const std::vector<OtherTool>& other_tools) {
   std::size_t best = trial.rows.size(), seen = 0;
+  const PlacedRows placed(both.chain, trial.rows, false);
   double sum = 0.0, most = 0.0;
   for (std::size_t i = trial.rows.size(); i-- > 0;) {
     TrialRow row = trial.rows[i];
     const int other = target_behind(row.target, other_tools);
     if (other == row.target) continue;
-    sum += capped_square_of((row.point_m - predicted_point(both, row)).norm(), both.deviation_m);
+    sum += capped_square_of((row.point_m - placed.point(both, i, row)).norm(), both.deviation_m);
     row.target = other;
-    sum -= capped_square_of((row.point_m - predicted_point(both, row)).norm(), both.deviation_m);
+    sum -= capped_square_of((row.point_m - placed.point(both, i, row)).norm(), both.deviation_m);
     if (++seen >= kFewestWithTool && sum > most) most = sum, best = i;
   }
   return best;
@@ -139,13 +143,14 @@ double most_by_drift(const Trial& trial, const TrialFit& fit, const ProjectedCol
   double most = 0.0;
   for (const DriftShape& shape : drift_shapes()) most = std::max(most, projected.gain(drift_columns(trial, shape)));
   const auto n = static_cast<double>(trial.rows.size());
+  const Eigen::MatrixXd joints = joint_columns(trial, fit, [](std::size_t, int) { return 1.0; });
   for (const double settling : {0.1, 0.3, 1e3}) {
-    const auto course = [&](std::size_t row) {
-      return settling * -std::expm1(-static_cast<double>(row) / n / settling);
-    };
-    const auto of_joints = joint_columns(trial, fit, [&](std::size_t row, int) { return course(row); });
-    Eigen::MatrixXd of_tools = tools;
-    for (Eigen::Index i = 0; i < of_tools.rows(); ++i) of_tools.row(i) *= course(static_cast<std::size_t>(i / 3));
+    Eigen::MatrixXd of_joints = joints, of_tools = tools;
+    for (Eigen::Index i = 0; i < tools.rows(); ++i) {
+      const double course = settling * -std::expm1(-static_cast<double>(i / 3) / n / settling);
+      of_joints.row(i) *= course;
+      of_tools.row(i) *= course;
+    }
     most = std::max({most, projected.gain(of_joints), projected.gain(of_tools)});
   }
   return most;

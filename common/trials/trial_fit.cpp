@@ -4,9 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include "decompositions/decompositions.hpp"
@@ -14,6 +12,7 @@
 #include "kinematics/forward.hpp"
 #include "parameters/declared_model.hpp"
 #include "random/distributions.hpp"
+#include "trials/placed_rows.hpp"
 
 namespace demecal::inline trials {
 namespace {
@@ -24,40 +23,47 @@ constexpr double kTukey = 6.0;            ///< deviations at which a row's weigh
 constexpr double kToolDeviation_m = 1.0;  ///< tools may be anywhere on the flange
 constexpr int kRegistrations = 8, kPlacingSteps = 6, kSearchSteps = 20, kArmSteps = 8;
 
-/// `turns`: those of the fit's chain.
-Eigen::Vector3d predicted_point(const TrialFit& fit, const FixedTurns& turns, const TrialRow& row) {
-  return fit.sensor_from_base[static_cast<std::size_t>(row.station)] *
-         (forward(turns, row.joints) * fit.tools_m[static_cast<std::size_t>(row.target)]);
-}
-
 double tukey_weight(double error_m, double deviation_m) {
   const double share = error_m / (kTukey * deviation_m);
   return share >= 1.0 ? 0.0 : (1 - share * share) * (1 - share * share);
 }
 
+/// What errors of unit deviation reach at a share of their rows, kept from one step to the next: the rank is mostly the
+/// same, and the quantile takes longer than all that it is divided into.
+class UnitErrors {
+ public:
+  double at(double share) {
+    if (share != share_) length_ = normal_length_quantile(3, share_ = share);
+    return length_;
+  }
+
+ private:
+  double share_ = -1.0, length_ = 0.0;
+};
+
 /// The scale as fit_base_and_tools states it.
-double deviation_of(std::vector<double> errors, double fitted_rows, double usual_m) {
+double deviation_of(std::vector<double> errors, double fitted_rows, double usual_m, UnitErrors& unit) {
   const auto n = static_cast<double>(errors.size());
   const double fitted = std::min(fitted_rows, n), rank = std::clamp(std::ceil(0.5 * (n + fitted)), 1.0, n);
   const auto at = errors.begin() + static_cast<std::ptrdiff_t>(rank - 1.0);
   std::nth_element(errors.begin(), at, errors.end());
-  const double raw_m = *at / normal_length_quantile(3, (rank - 0.5) / n);
+  const double raw_m = *at / unit.at((rank - 0.5) / n);
   const double deviation_m = std::sqrt((usual_m * usual_m + n * raw_m * raw_m) / (1.0 + n - fitted));
   return std::max(deviation_m, kSmallestScale_m);
 }
 
 /// Registers the rows of one station, rows far out counting less and less.
-void register_station(const Trial& trial, int station, TrialFit& fit) {
-  std::vector<const TrialRow*> rows;
-  for (const TrialRow& row : trial.rows)
-    if (row.station == station) rows.push_back(&row);
+void register_station(const Trial& trial, const PlacedRows& placed, int station, TrialFit& fit) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < trial.rows.size(); ++i)
+    if (trial.rows[i].station == station) rows.push_back(i);
   if (rows.empty()) return;
   const auto n = static_cast<Eigen::Index>(rows.size());
-  const FixedTurns turns(trial.chain);
   Eigen::Matrix3Xd from(3, n), to(3, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const TrialRow& row = *rows[static_cast<std::size_t>(i)];
-    from.col(i) = forward(turns, row.joints) * trial.tools_m[static_cast<std::size_t>(row.target)];
+    const std::size_t at = rows[static_cast<std::size_t>(i)];
+    const TrialRow& row = trial.rows[at];
+    from.col(i) = placed.flange(at) * trial.tools_m[static_cast<std::size_t>(row.target)];
     to.col(i) = row.point_m;
   }
   Eigen::VectorXd weights = Eigen::VectorXd::Ones(n);
@@ -69,11 +75,10 @@ void register_station(const Trial& trial, int station, TrialFit& fit) {
   }
 }
 
-void measure_errors(const Trial& trial, TrialFit& fit) {
-  const FixedTurns turns(fit.chain);
+void measure_errors(const Trial& trial, const PlacedRows& placed, UnitErrors& unit, TrialFit& fit) {
   fit.error_m.resize(trial.rows.size());
   for (std::size_t i = 0; i < trial.rows.size(); ++i) {
-    fit.error_m[i] = (trial.rows[i].point_m - predicted_point(fit, turns, trial.rows[i])).norm();
+    fit.error_m[i] = (trial.rows[i].point_m - placed.point(fit, i, trial.rows[i])).norm();
     if (!std::isfinite(fit.error_m[i])) fit.error_m[i] = std::numeric_limits<double>::max();
   }
   if (fit.error_m.empty()) {
@@ -81,18 +86,8 @@ void measure_errors(const Trial& trial, TrialFit& fit) {
     return;
   }
   fit.median_m = median(fit.error_m);
-  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.effective_parameters / 3.0, fit.usual_m);
+  fit.deviation_m = deviation_of(fit.error_m, fit.rows_per_pose * fit.effective_parameters / 3.0, fit.usual_m, unit);
 }
-
-/// Where the parameters of a trial stand in its normal equations: stations' bases, tools, links.
-struct ParameterPlaces {
-  int stations, tools, joints;
-  bool links;
-
-  int tool(int target) const { return 6 * stations + 3 * target; }
-  int link(int joint) const { return 6 * stations + 3 * tools + kLinkParameters * joint; }
-  int size() const { return link(links ? joints : 0); }
-};
 
 double link_deviation(LinkParameter parameter) {
   return parameter == LinkParameter::d || parameter == LinkParameter::a ? kMakersDeviation_m : kMakersDeviation_rad;
@@ -102,25 +97,6 @@ struct WeightedEquations {
   Eigen::MatrixXd information;
   Eigen::VectorXd gradient;
 };
-
-/// Of one row: the tool point's derivative with respect to all parameters, 3 x places.size(), and how far off it is.
-struct LinearRow {
-  Eigen::Matrix<double, 3, Eigen::Dynamic> jacobian;
-  Eigen::Vector3d error_m;
-};
-
-LinearRow linearized(const TrialFit& fit, const FixedTurns& turns, const TrialRow& row, const ParameterPlaces& places) {
-  const Eigen::Isometry3d& base = fit.sensor_from_base[static_cast<std::size_t>(row.station)];
-  const Eigen::Vector3d& tool = fit.tools_m[static_cast<std::size_t>(row.target)];
-  const Kinematics kinematics = differential_kinematics(turns, row.joints, tool);
-  const Eigen::Vector3d on_arm = kinematics.flange * tool;
-  LinearRow linear{decltype(LinearRow::jacobian)::Zero(3, places.size()), row.point_m - base * on_arm};
-  linear.jacobian.block<3, 3>(0, 6 * row.station).setIdentity();
-  linear.jacobian.block<3, 3>(0, 6 * row.station + 3) = -cross_matrix(base.linear() * on_arm);
-  linear.jacobian.block<3, 3>(0, places.tool(row.target)) = base.linear() * kinematics.flange.linear();
-  if (places.links) linear.jacobian.rightCols(kinematics.links.cols()) = base.linear() * kinematics.links.topRows<3>();
-  return linear;
-}
 
 void add_priors(const Trial& trial, const TrialFit& fit, const ParameterPlaces& places, WeightedEquations& normal) {
   const auto pull = [&normal](int at, double deviation, double off) {
@@ -157,18 +133,20 @@ void move(TrialFit& fit, const ParameterPlaces& places, const Eigen::VectorXd& s
           step[places.link(joint) + i];
 }
 
-/// Takes a Gauss-Newton step, with Tukey's weights if it is to be robust; false where none can be taken.
-bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, TrialFit& fit) {
-  const FixedTurns turns(fit.chain);
+/// Takes a Gauss-Newton step, with Tukey's weights if it is to be robust; false where none can be taken. The rows are
+/// placed at the fit's links, before and after.
+bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, PlacedRows& placed, UnitErrors& unit,
+               TrialFit& fit) {
   const auto n = static_cast<Eigen::Index>(trial.rows.size());
   Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(3 * n, places.size());
   Eigen::VectorXd error = Eigen::VectorXd::Zero(3 * n);
+  LinearRow linear;
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto at = static_cast<std::size_t>(i);
     const double share = robust ? tukey_weight(fit.error_m[at], fit.deviation_m) : 1.0;
     if (share <= 0.0) continue;
     const double root_weight = std::sqrt(share) / fit.deviation_m;
-    const LinearRow linear = linearized(fit, turns, trial.rows[at], places);
+    placed.linearize(fit, at, trial.rows[at], places, linear);
     jacobian.middleRows<3>(3 * i) = root_weight * linear.jacobian;
     error.segment<3>(3 * i) = root_weight * linear.error_m;
   }
@@ -181,18 +159,23 @@ bool step_down(const Trial& trial, const ParameterPlaces& places, bool robust, T
   fit.covariance = factor.solve(Eigen::MatrixXd::Identity(places.size(), places.size()));
   fit.effective_parameters = std::clamp(fit.covariance.cwiseProduct(by_points).sum(), 0.0, double(places.size()));
   move(fit, places, step);
-  measure_errors(trial, fit);
+  if (places.links) placed.place(fit.chain, trial.rows);
+  measure_errors(trial, placed, unit, fit);
   return true;
 }
 
+ParameterPlaces places_in_equations(const Trial& trial, bool links) {
+  return {trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), links};
+}
+
 /// Steps as long as they lower the median, twice over at most where they do not.
-TrialFit descend(const Trial& trial, TrialFit fit, bool links, int steps) {
-  const ParameterPlaces places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), links};
+TrialFit descend(const Trial& trial, const ParameterPlaces& places, PlacedRows placed, UnitErrors unit, TrialFit fit,
+                 int steps) {
   TrialFit best = fit;
   int worse = 0;
   for (int i = 0; i < steps && worse < 2; ++i) {
     const double before = fit.median_m;
-    if (!step_down(trial, places, true, fit)) break;
+    if (!step_down(trial, places, true, placed, unit, fit)) break;
     worse = fit.median_m < 0.999 * before ? 0 : worse + 1;
     if (fit.median_m <= best.median_m) best = fit;
   }
@@ -201,84 +184,64 @@ TrialFit descend(const Trial& trial, TrialFit fit, bool links, int steps) {
 
 }  // namespace
 
-double Trial::reach_m() const {
-  double reach_m = 0.1;
-  for (const TrialRow& row : rows)
-    reach_m = std::max(reach_m, (forward(chain, row.joints) * tools_m[static_cast<std::size_t>(row.target)]).norm());
-  return reach_m;
-}
-
-double Trial::rows_per_pose() const {
-  std::set<std::vector<double>> poses;
-  for (const TrialRow& row : rows) poses.emplace(row.joints.begin(), row.joints.end());
-  return static_cast<double>(rows.size()) / static_cast<double>(std::max<std::size_t>(poses.size(), 1));
-}
-
-Eigen::Matrix3d TrialFit::prediction_covariance(const TrialRow& row) const {
-  if (covariance.size() == 0) return Eigen::Matrix3d::Zero();
-  const ParameterPlaces places{static_cast<int>(sensor_from_base.size()), static_cast<int>(tools_m.size()),
-                               chain.size(), has_links()};
-  const Eigen::MatrixXd jacobian = linearized(*this, FixedTurns(chain), row, places).jacobian;
-  return jacobian * covariance * jacobian.transpose();
-}
-
-double TrialFit::deviations_off(const TrialRow& row) const {
-  const Eigen::Vector3d error = row.point_m - predicted_point(*this, row);
-  const Eigen::Matrix3d expected = prediction_covariance(row) + deviation_m * deviation_m * Eigen::Matrix3d::Identity();
-  return std::sqrt(std::max(0.0, error.dot(solve_pivoted(expected, error))));
-}
-
-Eigen::Matrix3d TrialFit::tool_covariance(int tool) const {
-  return covariance.block<3, 3>(6 * std::ssize(sensor_from_base) + 3 * tool,
-                                6 * std::ssize(sensor_from_base) + 3 * tool);
-}
-
-bool TrialFit::has_links() const {
-  return covariance.rows() > 6 * std::ssize(sensor_from_base) + 3 * std::ssize(tools_m);
-}
-
 Eigen::Vector3d predicted_point(const TrialFit& fit, const TrialRow& row) {
-  return predicted_point(fit, FixedTurns(fit.chain), row);
+  return fit.sensor_from_base[static_cast<std::size_t>(row.station)] *
+         (forward(FixedTurns(fit.chain), row.joints) * fit.tools_m[static_cast<std::size_t>(row.target)]);
 }
 
 TrialFit fit_base_and_tools(const Trial& trial) {
+  return fit_base_and_tools(trial, PlacedRows(trial.chain, trial.rows, false));
+}
+
+TrialFit fit_base_and_tools(const Trial& trial, const PlacedRows& placed) {
   TrialFit fit;
   fit.chain = trial.chain;
   fit.tools_m = trial.tools_m;
   fit.sensor_from_base.assign(static_cast<std::size_t>(trial.stations), Eigen::Isometry3d::Identity());
-  for (int station = 0; station < trial.stations; ++station) register_station(trial, station, fit);
+  for (int station = 0; station < trial.stations; ++station) register_station(trial, placed, station, fit);
   fit.rows_per_pose = trial.rows_per_pose();
-  fit.usual_m = kUsualShare * trial.reach_m();
-  measure_errors(trial, fit);
-  return descend(trial, std::move(fit), false, kPlacingSteps);
+  fit.usual_m = kUsualShare * placed.reach_m(trial);
+  UnitErrors unit;
+  measure_errors(trial, placed, unit, fit);
+  return descend(trial, places_in_equations(trial, false), placed, unit, std::move(fit), kPlacingSteps);
 }
 
 TrialFit refit_base_and_tools(const Trial& trial, TrialFit start) {
-  measure_errors(trial, start);
-  return descend(trial, std::move(start), false, kSearchSteps);
+  const PlacedRows placed(start.chain, trial.rows, false);
+  return refit_base_and_tools(trial, std::move(start), placed);
+}
+
+TrialFit refit_base_and_tools(const Trial& trial, TrialFit start, const PlacedRows& placed) {
+  UnitErrors unit;
+  measure_errors(trial, placed, unit, start);
+  return descend(trial, places_in_equations(trial, false), placed, unit, std::move(start), kSearchSteps);
 }
 
 TrialFit fit_arm(const Trial& trial, const TrialFit& placed) {
-  return descend(trial, placed, true, kArmSteps);
+  return descend(trial, places_in_equations(trial, true), PlacedRows(placed.chain, trial.rows, true), {}, placed,
+                 kArmSteps);
 }
 
 TrialFit fit_arm_to_all(const Trial& trial, const TrialFit& placed) {
-  const ParameterPlaces places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), true};
+  PlacedRows rows(placed.chain, trial.rows, true);
+  UnitErrors unit;
   TrialFit fit = placed;
-  for (int i = 0; i < kArmSteps && step_down(trial, places, false, fit); ++i) continue;
+  for (int i = 0; i < kArmSteps && step_down(trial, places_in_equations(trial, true), false, rows, unit, fit); ++i)
+    continue;
   return fit;
 }
 
 LinearizedTrial linearized(const Trial& trial, const TrialFit& fit) {
-  const ParameterPlaces places{trial.stations, static_cast<int>(trial.tools_m.size()), trial.chain.size(), true};
+  const ParameterPlaces places = places_in_equations(trial, true);
   WeightedEquations priors{Eigen::MatrixXd::Zero(places.size(), places.size()), Eigen::VectorXd::Zero(places.size())};
   add_priors(trial, fit, places, priors);
-  const FixedTurns turns(fit.chain);
+  const PlacedRows placed(fit.chain, trial.rows, true);
   const auto n = static_cast<Eigen::Index>(trial.rows.size());
   LinearizedTrial linear{Eigen::MatrixXd(3 * n, places.size()), priors.information.diagonal(), Eigen::VectorXd(3 * n)};
+  LinearRow of_row;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const TrialRow& row = trial.rows[static_cast<std::size_t>(i)];
-    const LinearRow of_row = linearized(fit, turns, row, places);
+    const auto at = static_cast<std::size_t>(i);
+    placed.linearize(fit, at, trial.rows[at], places, of_row);
     linear.jacobian.middleRows<3>(3 * i) = of_row.jacobian;
     linear.error_m.segment<3>(3 * i) = of_row.error_m;
   }

@@ -44,8 +44,7 @@ JumpStart best_start(const Trial& trial, const TrialFit& fit, const ProjectedCol
   for (int joint = 0; joint < trial.chain.size(); ++joint) {
     const Eigen::VectorXd column = joint_column(trial, fit, joint);
     for (std::size_t row = kFewestAside; row + kFewestAside <= trial.rows.size(); ++row) {
-      const Eigen::VectorXd behind = from_row(column, row);
-      const double with_error = projected.with_error(behind)[0], with_itself = projected.with_itself(behind)(0, 0);
+      const auto [with_error, with_itself] = projected.of_column(from_row(column, row), row);
       const double gain = 0.5 * with_error * with_error / with_itself;
       if (gain > best.gain) best = {joint, row, gain, with_error / with_itself};
     }
@@ -57,13 +56,11 @@ JumpStart best_start(const Trial& trial, const TrialFit& fit, const ProjectedCol
 double drift_gain(const Trial& trial, const TrialFit& fit, const ProjectedColumns& projected) {
   double most = 0.0;
   const auto n = static_cast<double>(trial.rows.size());
+  const Eigen::MatrixXd of_joints = joint_columns(trial, fit, [](std::size_t, int) { return 1.0; });
   for (const double settling : {0.1, 0.3, 1e3}) {
-    Eigen::MatrixXd columns(3 * static_cast<Eigen::Index>(trial.rows.size()), trial.chain.size());
-    for (int joint = 0; joint < trial.chain.size(); ++joint) {
-      columns.col(joint) = joint_column(trial, fit, joint);
-      for (Eigen::Index i = 0; i < columns.rows(); ++i)
-        columns(i, joint) *= settling * -std::expm1(-static_cast<double>(i / 3) / n / settling);
-    }
+    Eigen::MatrixXd columns = of_joints;
+    for (Eigen::Index i = 0; i < columns.rows(); ++i)
+      columns.row(i) *= settling * -std::expm1(-static_cast<double>(i / 3) / n / settling);
     most = std::max(most, projected.gain(columns));
   }
   return most;
@@ -113,12 +110,16 @@ bool has_station(const StationZero& zero, const TrialRow& row) {
   return std::ranges::find(zero.stations, row.station) != zero.stations.end();
 }
 
-/// What moves the joint at those stations alone.
-Eigen::VectorXd column_at(const Trial& trial, const TrialFit& fit, const StationZero& zero) {
-  Eigen::VectorXd column = joint_column(trial, fit, zero.joint);
+/// What moves the joint at those stations alone, of what moves it at all of them.
+Eigen::VectorXd at_stations(Eigen::VectorXd column, const Trial& trial, const std::vector<int>& stations) {
   for (std::size_t i = 0; i < trial.rows.size(); ++i)
-    if (!has_station(zero, trial.rows[i])) column.segment<3>(3 * static_cast<Eigen::Index>(i)).setZero();
+    if (std::ranges::find(stations, trial.rows[i].station) == stations.end())
+      column.segment<3>(3 * static_cast<Eigen::Index>(i)).setZero();
   return column;
+}
+
+Eigen::VectorXd column_at(const Trial& trial, const TrialFit& fit, const StationZero& zero) {
+  return at_stations(joint_column(trial, fit, zero.joint), trial, zero.stations);
 }
 
 /// Every station behind the first, alone and with all that follow it; of more than two the first one too.
@@ -135,12 +136,13 @@ std::vector<std::vector<int>> groups_of_stations(int count) {
 
 StationZero likeliest_zero(const Trial& trial, const TrialFit& fit) {
   const ProjectedColumns projected(trial, fit);
+  const Eigen::MatrixXd columns = joint_columns(trial, fit, [](std::size_t, int) { return 1.0; });
   StationZero best;
   double most = 0.0;
   for (const std::vector<int>& stations : groups_of_stations(trial.stations)) {
     for (int joint = 0; joint < trial.chain.size(); ++joint) {
       StationZero one{.joint = joint, .stations = stations};
-      const Eigen::VectorXd column = column_at(trial, fit, one);
+      const Eigen::VectorXd column = at_stations(columns.col(joint), trial, stations);
       const double with_error = projected.with_error(column)[0], with_itself = projected.with_itself(column)(0, 0);
       const double gain = 0.5 * with_error * with_error / with_itself;
       if (gain <= most) continue;
@@ -208,7 +210,8 @@ std::optional<Jump> find_zero_jump(const Trial& trial, const TrialFit& fit) {
     if (i + 1 == kRefits) break;
     const ProjectedColumns again(jump.trial, jump.fit);
     const Eigen::VectorXd column = from_row(joint_column(jump.trial, jump.fit, start.joint), jump.move.first_row);
-    jump.move.by += again.with_error(column)[0] / again.with_itself(column)(0, 0);
+    const auto [with_error, with_itself] = again.of_column(column, jump.move.first_row);
+    jump.move.by += with_error / with_itself;
     jump.move.first_row = best_row(trial, jump.fit, start.joint, jump.move.by);
     if (jump.move.first_row == n) return std::nullopt;
   }
