@@ -47,11 +47,7 @@ std::string calm_model(const SmallJob& job) {
   return job.text("calm/model.yaml");
 }
 
-TEST(Resume, GoesOnAfterTheCoordinatorWasKilled) {
-  const SmallJob job(kGenerations);
-  const std::string model = calm_model(job);
-  EXPECT_TRUE(job.text("calm/run.journal").empty());
-  leave_unfinished(job, "out");
+void goes_on_after_it_was_killed(const SmallJob& job, const std::string& model) {
   const Ended ended = run("demecal", resume(job, "out"));
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("going on from " + job.path("out/run.journal")));
@@ -60,29 +56,51 @@ TEST(Resume, GoesOnAfterTheCoordinatorWasKilled) {
   EXPECT_TRUE(Json::parse(job.text("out/report.json"))["runtime"]["resumed"]);
 }
 
-TEST(Resume, NeedsNoOtherFolderAndTakesADamagedEnd) {
-  const SmallJob job(kGenerations);
-  const std::string model = calm_model(job);
-  leave_unfinished(job, "out");
-  std::ofstream(job.path("out/run.journal"), std::ios::app) << "half a rec";
-  const Ended ended = run("demecal", {"calibrate", job.job(), "--resume", job.path("out"), "--domain", private_domain(),
-                                      "--max-effects", "0"});
+void needs_no_other_folder_and_takes_a_damaged_end(const SmallJob& job, const std::string& model) {
+  std::ofstream(job.path("damaged/run.journal"), std::ios::app) << "half a rec";
+  const Ended ended = run("demecal", {"calibrate", job.job(), "--resume", job.path("damaged"), "--domain",
+                                      private_domain(), "--max-effects", "0"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   EXPECT_THAT(ended.err, HasSubstr("damaged record is left out"));
-  EXPECT_EQ(job.text("out/model.yaml"), model);
+  EXPECT_EQ(job.text("damaged/model.yaml"), model);
 }
 
-TEST(Resume, GoesOnAfterCtrlC) {
-  const SmallJob job(kGenerations);
-  const std::string model = calm_model(job);
-  StartedProgram coordinator("demecal", calibrate_with(job, "out"));
+void goes_on_after_ctrl_c(const SmallJob& job, const std::string& model) {
+  StartedProgram coordinator("demecal", calibrate_with(job, "stopped"));
   ASSERT_TRUE(coordinator.wait_for_err("generation"));
   coordinator.signal(SIGINT);
   const Ended interrupted = coordinator.wait();
   ASSERT_EQ(interrupted.code, 130) << interrupted.err;
-  EXPECT_THAT(interrupted.out, HasSubstr("--resume " + job.path("out")));
-  ASSERT_EQ(run("demecal", resume(job, "out")).code, 0);
-  EXPECT_EQ(job.text("out/model.yaml"), model);
+  EXPECT_THAT(interrupted.out, HasSubstr("--resume " + job.path("stopped")));
+  ASSERT_EQ(run("demecal", resume(job, "stopped")).code, 0);
+  EXPECT_EQ(job.text("stopped/model.yaml"), model);
+}
+
+void goes_on_after_the_disk_was_full(const SmallJob& job, const std::string& model) {
+  rlimit before{};
+  ::getrlimit(RLIMIT_FSIZE, &before);
+  const rlimit full{100'000, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &full);
+  const Ended ended = run("demecal", calibrate_with(job, "full", {"--quiet"}));
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  EXPECT_EQ(ended.code, 21) << ended.err;
+  EXPECT_THAT(ended.err, HasSubstr("the run failed: " + job.path("full/run.journal") +
+                                   ": the journal cannot be written: File too large"));
+  ASSERT_EQ(run("demecal", resume(job, "full")).code, 0);
+  EXPECT_EQ(job.text("full/model.yaml"), model);
+}
+
+/// One job and one undisturbed run of it for all that may break a run off.
+TEST(Resume, EndsWithTheModelOfTheUndisturbedRun) {
+  const SmallJob job(kGenerations);
+  const std::string model = calm_model(job);
+  EXPECT_TRUE(job.text("calm/run.journal").empty());
+  ASSERT_NO_FATAL_FAILURE(leave_unfinished(job, "out"));
+  std::filesystem::copy(job.path("out"), job.path("damaged"), std::filesystem::copy_options::recursive);
+  goes_on_after_it_was_killed(job, model);
+  needs_no_other_folder_and_takes_a_damaged_end(job, model);
+  goes_on_after_ctrl_c(job, model);
+  goes_on_after_the_disk_was_full(job, model);
 }
 
 TEST(Resume, RefusesAnotherSeedOrJobAndSaysSo) {
@@ -109,22 +127,6 @@ TEST(Resume, BeginsNothingAmongFilesOfOthers) {
   EXPECT_EQ(ended.code, 10) << ended.out;
   EXPECT_THAT(ended.err, HasSubstr("holds files, but no run that was begun there"));
   EXPECT_TRUE(job.text("notes/model.yaml").empty());
-}
-
-TEST(Resume, GoesOnAfterTheDiskWasFull) {
-  const SmallJob job(kGenerations);
-  const std::string model = calm_model(job);
-  rlimit before{};
-  ::getrlimit(RLIMIT_FSIZE, &before);
-  const rlimit full{100'000, before.rlim_max};
-  ::setrlimit(RLIMIT_FSIZE, &full);
-  const Ended ended = run("demecal", calibrate_with(job, "out", {"--quiet"}));
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  EXPECT_EQ(ended.code, 21) << ended.err;
-  EXPECT_THAT(ended.err, HasSubstr("the run failed: " + job.path("out/run.journal") +
-                                   ": the journal cannot be written: File too large"));
-  ASSERT_EQ(run("demecal", resume(job, "out")).code, 0);
-  EXPECT_EQ(job.text("out/model.yaml"), model);
 }
 
 TEST(Calibrate, OneFolderIsServedByOneCoordinator) {
