@@ -70,7 +70,7 @@ class Evolver {
   virtual void add_effort(std::uint32_t /*generations*/, std::uint64_t /*evaluations*/) {}
 };
 
-/// The closed loop's work by whom the evolver has; it has to outlive that.
+/// The closed loop's work, done by the evolver, which has to outlive it.
 inline LoopWork work_of(Evolver& evolver) {
   return {[&evolver](const ExplanationProblem& problem, const SetSearch& search) {
             return evolver.search_explanations(problem, search);

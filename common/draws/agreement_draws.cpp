@@ -88,22 +88,26 @@ std::unique_ptr<DrawWork> AgreementDraws::read(const DrawInputs& inputs, DrawRea
   std::vector<Pairs> circumstances;
   while (reader.lists_left() > 0) {
     const auto& places = reader.list(poses.size());
-    DrawReader::require(places.size() % 2 == 0, "a pose without its neighbour");
+    DrawReader::require(places.size() % 2 == 0, "an odd number of pose indices");
     Pairs& pairs = circumstances.emplace_back();
     for (std::size_t i = 0; i < places.size(); i += 2) pairs.push_back({places[i], places[i + 1]});
   }
   const auto rows = static_cast<Eigen::Index>(residuals.rows().size());
   const Eigen::Index basis_rows = reader.rows_of_next_table();
-  DrawReader::require(basis_rows == rows || basis_rows == residuals.noise.rows(), "a basis of other rows");
+  DrawReader::require(basis_rows == rows || basis_rows == residuals.noise.rows(), "a basis of the wrong height");
   residuals.basis = reader.table(basis_rows);
   const Eigen::Index rank = residuals.basis.cols();
   residuals.prior_basis = reader.table(residuals.noise.belief_deviations.size(), rank);
   const bool of_all = reader.rows_of_next_table() == 0;
   residuals.others_root = of_all ? reader.table(0, 0) : reader.table(rank);
-  DrawReader::require(basis_rows == (of_all ? residuals.noise.rows() : rows), "a basis of other rows");
+  const Eigen::Index others = residuals.others_root.cols();
+  DrawReader::require(of_all || (others > 0 && others <= rank), "a root of the wrong width");
+  DrawReader::require(basis_rows == (of_all ? residuals.noise.rows() : rows), "a basis of the wrong height");
   residuals.model_squares = reader.table(1, 1)(0, 0);
   RowMatrix joint_columns = reader.table(rows);
   RowMatrix lengths = reader.table(static_cast<Eigen::Index>(poses.size()), joint_columns.cols());
+  DrawReader::require(static_cast<std::size_t>(lengths.cols()) * circumstances.size() == inputs.numbers_of_draw,
+                      "numbers_of_draw is not what the tables give");
   return std::make_unique<AgreementDraws>(std::move(residuals), std::move(joint_columns), std::move(lengths),
                                           std::move(circumstances), inputs.draws, inputs.stream);
 }

@@ -8,14 +8,14 @@
 namespace demecal::inline draws {
 namespace {
 
-constexpr std::size_t kMostDrawnRows = 6'000'000;  ///< measured numbers
+constexpr std::size_t kMostDrawnRows = 1'000'000;  ///< measured numbers: memory is claimed by them
 
 }  // namespace
 
 const std::vector<std::uint32_t>& DrawReader::list(std::size_t limit) {
   require(next_list_ < inputs_.lists.size(), "a list is missing");
   const std::vector<std::uint32_t>& list = inputs_.lists[next_list_++];
-  require(std::ranges::all_of(list, [&](std::uint32_t place) { return place < limit; }), "a place that there is not");
+  require(std::ranges::all_of(list, [&](std::uint32_t place) { return place < limit; }), "an index out of range");
   return list;
 }
 
@@ -72,16 +72,16 @@ NullNoise read_noise(DrawReader& reader) {
   noise.silent.assign(silent.begin(), silent.end());
   const auto& believed = reader.list(2);
   noise.believed.assign(believed.begin(), believed.end());
-  std::map<Eigen::Index, std::size_t> heard;  // poses that have weight, by their number of rows
+  std::map<Eigen::Index, std::size_t> weighted;  // poses that have weight, by their number of rows
   for (std::size_t pose = 0; pose < noise.poses(); ++pose) {
     DrawReader::require(noise.rows_of_pose(pose) <= kMostRowsOfPose, "a pose of too many rows");
-    if (!noise.silent[pose]) ++heard[noise.rows_of_pose(pose)];
+    if (!noise.silent[pose]) ++weighted[noise.rows_of_pose(pose)];
   }
   std::size_t all = 0;
-  for (const auto& [count, poses] : heard) all += poses;
+  for (const auto& [count, poses] : weighted) all += poses;
   const Eigen::MatrixXd lengths = reader.table(static_cast<Eigen::Index>(all), 1);
   const double* next = lengths.data();
-  for (const auto& [count, poses] : heard) {
+  for (const auto& [count, poses] : weighted) {
     noise.lengths[count].assign(next, next + poses);
     next += poses;
   }

@@ -25,7 +25,7 @@ std::vector<std::uint32_t> list_of(const Places& places) {
   return list;
 }
 
-/// Thrown by DrawReader: the received numbers are of no work.
+/// Thrown by DrawReader: no draws can be made from the inputs.
 struct DrawFault {
   std::string text;
 };

@@ -11,7 +11,7 @@ namespace demecal::inline draws {
 namespace {
 
 constexpr std::uint32_t kDrawsOfPiece = 32;
-constexpr std::uint32_t kMostDrawsOfWork = 100'000, kMostNumbersOfDraw = 1'000'000;
+constexpr std::uint32_t kMostDrawsOfWork = 32'768, kMostNumbersOfDraw = 100'000;
 
 std::size_t pieces_of(std::uint32_t draws) {
   return (std::size_t{draws} + kDrawsOfPiece - 1) / kDrawsOfPiece;
@@ -29,8 +29,8 @@ std::unique_ptr<DrawWork> read_work(const DrawInputs& inputs) {
   if (inputs.kind == DrawKind::agreements) work = AgreementDraws::read(inputs, reader);
   if (inputs.kind == DrawKind::gains) work = GainDraws::read(inputs, reader);
   DrawReader::require(work != nullptr, "draws of an unknown kind");
-  DrawReader::require(reader.lists_left() == 0 && reader.tables_left() == 0, "more lists or tables than there are");
-  DrawReader::require(work->numbers_of_draw() == inputs.numbers_of_draw, "another number of numbers of a draw");
+  DrawReader::require(reader.lists_left() == 0 && reader.tables_left() == 0, "lists or tables too many");
+  DrawReader::require(work->numbers_of_draw() == inputs.numbers_of_draw, "numbers_of_draw is not what the tables give");
   return work;
 }
 

@@ -1,5 +1,4 @@
-// Work of many random draws, in pieces that anybody can make who has its numbers: the same numbers give the same draws
-// to the bit.
+// Work of many random draws, in pieces that any process can make from the same inputs, to the bit.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +24,7 @@ struct DrawTable {
   bool operator==(const DrawTable&) const = default;
 };
 
-/// All that draws are made from, as plain numbers that travel. What stands in which list and table is their kind's.
+/// All that draws are made from, as plain numbers that travel. The kind says what stands in which list and table.
 struct DrawInputs {
   DrawKind kind = DrawKind::agreements;
   std::uint32_t draws = 0;

@@ -10,7 +10,7 @@
 namespace demecal::inline draws {
 namespace {
 
-constexpr std::size_t kMostDrawnColumns = 1'000'000;
+constexpr std::size_t kMostDrawnColumns = 100'000;
 
 /// Of numbers that came from elsewhere: the same with what it refers to.
 class ReceivedGainDraws final : public DrawWork {
@@ -110,15 +110,21 @@ std::unique_ptr<DrawWork> GainDraws::read(const DrawInputs& inputs, DrawReader& 
   parts.basis = reader.table(rows).cast<float>();
   parts.prior_basis = reader.table(parts.noise.belief_deviations.size(), parts.basis.cols()).cast<float>();
   const Eigen::Index columns = reader.rows_of_next_table();
+  DrawReader::require(columns <= static_cast<Eigen::Index>(kMostDrawnColumns), "too many columns");
   parts.along = reader.table(columns, parts.basis.cols()).cast<float>();
   const Eigen::MatrixXd costs = reader.table(static_cast<Eigen::Index>(firsts.size()), 1), prices = reader.table(2, 1);
   parts.prices = {prices(0, 0), prices(1, 0)};
   for (std::size_t i = 0; i < firsts.size(); ++i) {
     const auto first = static_cast<Eigen::Index>(firsts[i]), width = static_cast<Eigen::Index>(widths[i]);
-    DrawReader::require(first + width <= columns, "a candidate of columns that there are not");
+    DrawReader::require(first + width <= columns, "a candidate whose columns exceed the matrix");
     parts.candidates.push_back({first, static_cast<Eigen::Index>(ranks[i]), costs(static_cast<Eigen::Index>(i), 0),
                                 reader.table(width, width)});
   }
+  // Before memory is claimed for motions: each block has a list and two tables, of which one is as long as the rows.
+  constexpr std::size_t kMostMotions = 8'000'000;
+  DrawReader::require(reader.tables_left() == 2 * reader.lists_left() &&
+                          reader.lists_left() <= kMostMotions / static_cast<std::size_t>(rows),
+                      "blocks without their tables, or too many");
   std::vector<FeatureBlock> blocks;
   RowMatrix motions(rows, static_cast<Eigen::Index>(reader.lists_left()));
   while (reader.lists_left() > 0) {

@@ -43,14 +43,14 @@ NullNoise::Draws NullNoise::draw(Eigen::Index count, RandomStream& random) const
   return draws;
 }
 
-Eigen::VectorXd NullNoise::draw_poses(const std::vector<std::size_t>& of, RandomStream& random) const {
+Eigen::VectorXd NullNoise::draw_poses(const std::vector<std::size_t>& drawn_poses, RandomStream& random) const {
   Eigen::Index count = 0;
-  for (const std::size_t pose : of) count += rows_of_pose(pose);
+  for (const std::size_t pose : drawn_poses) count += rows_of_pose(pose);
   std::map<Eigen::Index, std::vector<double>> dealt = lengths;
   Eigen::VectorXd drawn(count);
   random.normals({drawn.data(), static_cast<std::size_t>(drawn.size())});
   Eigen::Index first = 0;
-  for (const std::size_t pose : of) {
+  for (const std::size_t pose : drawn_poses) {
     auto own = drawn.segment(first, rows_of_pose(pose));
     first += own.size();
     if (silent[pose]) {

@@ -33,7 +33,7 @@ struct NullNoise {
   };
   Draws draw(Eigen::Index count, RandomStream& random) const;
   /// The rows of some poses alone, one pose after another.
-  Eigen::VectorXd draw_poses(const std::vector<std::size_t>& poses, RandomStream& random) const;
+  Eigen::VectorXd draw_poses(const std::vector<std::size_t>& drawn_poses, RandomStream& random) const;
   Eigen::VectorXd draw_beliefs(RandomStream& random) const;
 };
 

@@ -8,7 +8,7 @@
 namespace demecal::inline protocol {
 
 bool fit_into_message(const DrawInputs& inputs) {
-  std::size_t numbers = 0;
+  std::size_t numbers = inputs.lists.size() + inputs.tables.size();  // none is for nothing
   for (const DrawTable& table : inputs.tables) numbers += table.numbers.size();
   for (const std::vector<std::uint32_t>& list : inputs.lists) numbers += list.size();
   return numbers <= kMostDrawNumbers;
@@ -20,7 +20,7 @@ Fault find_draw_fault(const CalibrationData& data) {
   if (!data.tables.empty() || a.joints != std::vector<std::uint32_t>{0} || a.demes_per_joint != data.draws.pieces() ||
       a.topology != Topology::none || a.between_joints || a.asynchronous || a.migration_interval != 1 ||
       a.migrants != 0 || data.parameters.number_generations != 1)
-    return "islands that draws do not have";
+    return "islands that are not those of the draws";
   return find_fault(data.draws);
 }
 

@@ -48,7 +48,7 @@ struct CalibrationData {
   std::uint64_t seed = 0;
   GpParameters parameters;
   Archipelago archipelago;
-  std::vector<TrainingTable> tables;  ///< parallel to archipelago.joints; none where sets of effects are bred
+  std::vector<TrainingTable> tables;  ///< parallel to archipelago.joints; none where no formulas are bred
   Breeds breeds = Breeds::formulas;
   SetTraining sets{};  ///< where these are bred, on islands of joint 0
   DrawInputs draws{};  ///< where these are made: deme i of joint 0 makes piece i in its last epoch

@@ -82,6 +82,12 @@ std::chrono::milliseconds longest_epoch(const SetTraining& sets) {
   return kSet * sets.variations / static_cast<int>(kSetEpochs);
 }
 
+/// However the draws end, their run does too.
+struct EndsSharedRun {
+  std::atomic<bool>& over;
+  ~EndsSharedRun() { over = true; }
+};
+
 /// Has an observer and a journal follow what happens, as far as they are there.
 class RecordedRun final : public RunObserver {
  public:
@@ -145,12 +151,12 @@ std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProbl
 }
 
 std::vector<std::vector<double>> IslandEvolver::make_draws(const DrawWork& work) {
-  if (!options_.share_draws || no_worker_came_ || interrupt_) return Evolver::make_draws(work);
   end_shared_run();
+  if (!options_.share_draws || no_worker_shared_ || interrupt_) return Evolver::make_draws(work);
   CalibrationData data = data_of_draws(work);
-  if (!fit_into_message(data.draws) || !can_start_workers()) return Evolver::make_draws(work);
   data.job = job_.name;
   data.seed = job_.seed;
+  if (fault_without_run(data) || !can_start_workers()) return Evolver::make_draws(work);
   data.run = pool_->transport().new_run();
   pool_->launch(data.run);
   const auto draws = std::make_shared<SharedDraws>(work.pieces());
@@ -159,21 +165,25 @@ std::vector<std::vector<double>> IslandEvolver::make_draws(const DrawWork& work)
     return EvolutionRun(pool_->transport(), std::move(state), *draws, present_)
         .run(shared_run_over_, options_.patience);
   });
+  const EndsSharedRun ends{shared_run_over_};
   std::vector<std::vector<double>> made = draws->make_rest(work);
-  shared_run_over_ = true;
   shared_pieces_.all += made.size();
   shared_pieces_.elsewhere += draws->made_elsewhere();
   return made;
 }
 
-/// Before anything else is asked of the transport.
+/// Before anything else is asked of the transport. What went wrong there is the next run's to meet: the draws are made.
 void IslandEvolver::end_shared_run() {
   if (!shared_run_.valid()) return;
-  RunResult result = shared_run_.get();
-  present_ = std::move(result.present);
-  result.rejected -= std::exchange(rejected_, result.rejected);
-  no_worker_came_ = no_worker_came_ || result.end == RunEnd::no_worker;
-  count_workers(result);
+  try {
+    RunResult result = shared_run_.get();
+    present_ = std::move(result.present);
+    result.rejected -= std::exchange(rejected_, result.rejected);
+    no_worker_shared_ = result.end == RunEnd::no_worker;
+    count_workers(result);
+  } catch (const std::runtime_error&) {
+    no_worker_shared_ = true;
+  }
 }
 
 RunState IslandEvolver::known_state(const CalibrationData& data) {

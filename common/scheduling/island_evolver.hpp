@@ -66,8 +66,8 @@ class IslandEvolver final : public Evolver {
   /// By the pool's workers; here where none can be started or comes, or where the matrices do not fit into a message.
   /// Not journalled: it takes seconds, and what it finds is a function of its arguments.
   std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override;
-  /// Beside this process by the pool's workers, where draws are shared and their numbers fit into a message: who is
-  /// lost is not missed. Its runs are not for people to see.
+  /// By this process and the pool's workers at once, where draws are shared and workers would take them: a worker that
+  /// is lost is not missed. These runs are neither told to the observer nor journalled.
   std::vector<std::vector<double>> make_draws(const DrawWork& work) override;
   /// Why the last search for explanations was made in this process; empty where workers made it.
   const std::string& searched_here_because() const { return searched_here_because_; }
@@ -115,6 +115,7 @@ class IslandEvolver final : public Evolver {
   bool no_worker_came_ = false;  ///< to a search for explanations: no further one waits for any
   std::string searched_here_because_;
   SharedPieces shared_pieces_;
+  bool no_worker_shared_ = false;  ///< the last draws: further ones are made here
   std::atomic<bool> shared_run_over_{false};
   std::future<RunResult> shared_run_;    ///< of draws; it ends while the loop goes on
   std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each

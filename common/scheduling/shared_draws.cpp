@@ -7,9 +7,10 @@
 namespace demecal::inline scheduling {
 
 void SharedDraws::on_outcome(const Outcome& outcome) {
-  const bool first = put(outcome.island.deme, outcome.numbers);
   const std::lock_guard lock(mutex_);
-  made_elsewhere_ += first;
+  if (pieces_[outcome.island.deme]) return;
+  pieces_[outcome.island.deme] = outcome.numbers;
+  ++made_elsewhere_;
 }
 
 std::size_t SharedDraws::made_elsewhere() const {
@@ -22,11 +23,9 @@ bool SharedDraws::is_made(std::size_t piece) const {
   return pieces_[piece].has_value();
 }
 
-bool SharedDraws::put(std::size_t piece, std::vector<double> numbers) {
+void SharedDraws::put(std::size_t piece, std::vector<double> numbers) {
   const std::lock_guard lock(mutex_);
-  if (pieces_[piece]) return false;
-  pieces_[piece] = std::move(numbers);
-  return true;
+  if (!pieces_[piece]) pieces_[piece] = std::move(numbers);
 }
 
 std::vector<std::vector<double>> SharedDraws::make_rest(const DrawWork& work) {

@@ -1,4 +1,4 @@
-// Draws that workers and this process make together: whoever is first with a piece counts, for all make the same.
+// Draws that workers and this process make together: of a piece the first result is taken, for all are the same.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ class SharedDraws final : public RunObserver {
 
  private:
   bool is_made(std::size_t piece) const;
-  bool put(std::size_t piece, std::vector<double> numbers);
+  void put(std::size_t piece, std::vector<double> numbers);
 
   mutable std::mutex mutex_;
   std::vector<std::optional<std::vector<double>>> pieces_;

@@ -46,7 +46,7 @@ Eigen::MatrixXd ProjectedColumns::with_itself(const Eigen::MatrixXd& columns) co
 }
 
 ProjectedColumns::Products ProjectedColumns::of_column(const Eigen::VectorXd& column, std::size_t first) const {
-  // Sums run in several lanes: where whole turns of them are left out, each lane goes on as it would have.
+  // Sums run in several lanes: to leave out a multiple of eight leading zeros keeps the order of each.
   constexpr Eigen::Index kLanes = 8;
   const Eigen::Index behind = column.size() - 3 * static_cast<Eigen::Index>(first) / kLanes * kLanes;
   const Eigen::MatrixXd there = column.tail(behind);

@@ -21,7 +21,7 @@ class ProjectedColumns {
   Eigen::VectorXd with_error(const Eigen::MatrixXd& columns) const;
   /// b' W c of the same, for all pairs of columns.
   Eigen::MatrixXd with_itself(const Eigen::MatrixXd& columns) const;
-  /// Both of one column by itself that is nothing in all rows before `first`: the same numbers, without those rows.
+  /// Both of a single column that is zero in all rows before `first`, without those rows.
   struct Products {
     double with_error = 0.0, with_itself = 0.0;
   };

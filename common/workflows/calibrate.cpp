@@ -150,7 +150,7 @@ void announce_shared_draws(const IslandEvolver& islands, CalibrationObserver& ob
   const IslandEvolver::SharedPieces& pieces = islands.shared_pieces();
   if (pieces.all == 0) return;
   observer.on_message("workers made " + std::to_string(pieces.elsewhere) + " of " + std::to_string(pieces.all) +
-                      " pieces of the draws that tests are held against");
+                      " batches of the random draws that significance is judged by");
 }
 
 /// Closes the loop around result.calibration.

@@ -291,7 +291,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command->add_flag("--asynchronous", request->asynchronous,
                     "islands wait for no neighbour: never idle, but another run gives another result");
   command->add_flag("--share-draws", request->share_draws,
-                    "workers make the closed loop's random draws too: the same result, sooner if they are elsewhere");
+                    "workers make the closed loop's random draws too: the same result, perhaps sooner if elsewhere");
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run_calibrate(*request); });

@@ -79,6 +79,27 @@ TEST(Draws, OfNumbersThatAreNotFiniteAreRefused) {
   }
 }
 
+TEST(Draws, ThatWouldClaimMoreMemoryThanTheirNumbersAreRefused) {
+  constexpr std::size_t kBasis = 2, kPriorBasis = 3, kFifth = 4;
+  DrawInputs agreements = RandomWorks(5).agreements(false).inputs();
+  agreements.tables[kFifth] = {5, {}};  // a root without columns, and so of no size
+  EXPECT_NE(find_fault(agreements), std::nullopt);
+  agreements = RandomWorks(5).agreements(false).inputs();
+  ++agreements.numbers_of_draw;
+  EXPECT_NE(find_fault(agreements), std::nullopt);
+  agreements = RandomWorks(5).agreements(false).inputs();
+  agreements.lists.front() = {0, 2'000'000};
+  EXPECT_NE(find_fault(agreements), std::nullopt);
+  DrawInputs gains = RandomWorks(6).gains()->work->inputs();
+  gains.tables[kBasis].numbers.clear();
+  gains.tables[kPriorBasis].numbers.clear();
+  gains.tables[kFifth] = {4'000'000'000, {}};  // columns along a basis that there is not
+  EXPECT_NE(find_fault(gains), std::nullopt);
+  gains = RandomWorks(6).gains()->work->inputs();
+  gains.lists.resize(gains.lists.size() + 1'000'000);  // blocks without their tables
+  EXPECT_NE(find_fault(gains), std::nullopt);
+}
+
 /// Whatever was changed on the way, they are refused or can be made.
 TEST(Draws, OfAnyNumbersAreRefusedOrMade) {
   RandomStream random{98};

@@ -58,7 +58,7 @@ TEST(Calibrate, GivesTheSameModelForOneAndTwoWorkersAndWorkersStartedBeforeOrAft
     const auto first = worker(), second = worker();
     const Ended ended = run("demecal", with_shared_draws(calibrate(job, "before", 0)));
     ASSERT_EQ(ended.code, 0);
-    EXPECT_NE(ended.err.find("pieces of the draws"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("batches of the random draws"), std::string::npos) << ended.err;
   }
   EXPECT_EQ(model, job.text("before/model.yaml"));
   StartedProgram coordinator("demecal", calibrate(job, "after", 0));
