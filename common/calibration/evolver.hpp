@@ -8,11 +8,11 @@
 #include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "diagnosis/loop.hpp"
-#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "explanations/explanation_search.hpp"
 #include "expression/shared_function.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline calibration {
 
@@ -59,8 +59,8 @@ class Evolver {
     return demecal::search_explanations(problem, search);
   }
 
-  /// As demecal::make_draws() does, to the bit, whoever makes them.
-  virtual std::vector<std::vector<double>> make_draws(const DrawWork& work) { return demecal::make_draws(work); }
+  /// As demecal::do_work() does, to the bit, whoever does it.
+  virtual std::vector<std::vector<double>> do_work(const SharedWork& work) { return demecal::do_work(work); }
 
   /// The closed loop is about to have this evolved; for those who watch.
   virtual void announce(Purpose /*purpose*/) {}
@@ -75,7 +75,7 @@ inline LoopWork work_of(Evolver& evolver) {
   return {[&evolver](const ExplanationProblem& problem, const SetSearch& search) {
             return evolver.search_explanations(problem, search);
           },
-          [&evolver](const DrawWork& work) { return evolver.make_draws(work); }};
+          [&evolver](const SharedWork& work) { return evolver.do_work(work); }};
 }
 
 }  // namespace demecal::inline calibration

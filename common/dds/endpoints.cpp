@@ -136,29 +136,29 @@ eprosima::fastrtps::Duration_t dds_duration(milliseconds time) {
 std::string topic_name(Topic topic, std::uint32_t joint) {
   switch (topic) {
     case Topic::data:
-      return "demecal/10/data";
+      return "demecal/11/data";
     case Topic::task:
-      return "demecal/10/task";
+      return "demecal/11/task";
     case Topic::control:
-      return "demecal/10/control";
+      return "demecal/11/control";
     case Topic::migrants:
-      return "demecal/10/migrants/" + std::to_string(joint + 1);
+      return "demecal/11/migrants/" + std::to_string(joint + 1);
     case Topic::progress:
-      return "demecal/10/progress";
+      return "demecal/11/progress";
     case Topic::checkpoint:
-      return "demecal/10/checkpoint";
+      return "demecal/11/checkpoint";
     case Topic::outcome:
-      return "demecal/10/outcome";
+      return "demecal/11/outcome";
     case Topic::loop:
-      return "demecal/10/loop";
+      return "demecal/11/loop";
     case Topic::cause:
-      return "demecal/10/cause";
+      return "demecal/11/cause";
     case Topic::final_figures:
-      return "demecal/10/final_figures";
+      return "demecal/11/final_figures";
     case Topic::worker:
       break;
   }
-  return "demecal/10/worker";
+  return "demecal/11/worker";
 }
 
 fastdds::DataWriterQos writer_qos(Topic topic) {

@@ -183,13 +183,13 @@ void find_limits(const FinishedLoop& loop, const std::vector<double>& null_maxim
     const RowMatrix validation = RowMatrix::Zero(loop.linearization.validation.rows(), count);
     beyond.add(beyond.trial(loop.columns.dense(loop.linearization.fitted, index), validation));
   }
-  const Scan scan = set_aside.empty()
-                        ? loop.scan
-                        : Scan(loop.columns, naming_costs_nats(loop.candidates), loop.linearization.fitted, beyond);
+  const Scan scan = set_aside.empty() ? loop.scan
+                                      : Scan(loop.columns, naming_costs_nats(loop.candidates),
+                                             loop.linearization.fitted, beyond, options.do_work);
   std::vector<double> maxima = null_maxima;
   if (!set_aside.empty())
-    maxima = scan.null_maxima(loop.columns, loop.linearization.fitted, beyond, options.null_draws, random,
-                              options.make_draws);
+    maxima =
+        scan.null_maxima(loop.columns, loop.linearization.fitted, beyond, options.null_draws, random, options.do_work);
   const double variance = beyond.squares() / beyond.freedom();
   const std::vector<Score> scores = scan.scores();
   std::vector<DetectableCandidate> candidates;

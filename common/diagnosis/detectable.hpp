@@ -9,11 +9,11 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
-#include "draws/draw_work.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline diagnosis {
 
@@ -62,7 +62,7 @@ struct FinishedLoop {
 struct BoundOptions {
   double family_error = 0.05;
   int null_draws = 999;
-  MakeDraws make_draws = demecal::make_draws;
+  DoWork do_work = demecal::do_work;
 };
 
 /// smallest_detectable() of the candidates at a loop's end, beside what the joints' smooth corrections could absorb

@@ -83,7 +83,9 @@ std::vector<PricedEffect> preselected(const LoopEnd& end, const std::vector<std:
 }
 
 std::vector<Score> scores_beside(const LoopEnd& end, const Linearization& linearization) {
-  return Scan(end.columns, naming_costs_nats(end.candidates), linearization.fitted, linearization.projection).scores();
+  return Scan(end.columns, naming_costs_nats(end.candidates), linearization.fitted, linearization.projection,
+              end.rules.do_work)
+      .scores();
 }
 
 /// What the search may use: the model's effects, and candidates where there is to be any variation.

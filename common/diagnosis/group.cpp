@@ -43,7 +43,7 @@ Group::Group(const DiagnosisProblem& problem, const DiagnosedModel& model, const
       null_maxima_(null_maxima),
       rules_(rules),
       projection_(linearization.projection),
-      scan_(columns, naming_costs_nats(candidates), linearization.fitted, projection_),
+      scan_(columns, naming_costs_nats(candidates), linearization.fitted, projection_, rules.do_work),
       scores_(scan_.scores()),
       confirmed_residual_(projection_.validation_residual()) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -130,7 +130,7 @@ void Group::update_null_maxima(std::size_t index) {
   const bool first = outcome_.rounds.empty();
   if (!null_maxima_.empty() && (evident || !first)) return;
   null_maxima_ = scan_.null_maxima(columns_, linearization_.fitted, projection_, rules_.null_draws,
-                                   random(RandomPurpose::null_distribution), rules_.make_draws);
+                                   random(RandomPurpose::null_distribution), rules_.do_work);
 }
 
 Round Group::evaluate(std::size_t index) {
@@ -140,7 +140,7 @@ Round Group::evaluate(std::size_t index) {
       tool_errors_mm(linearization_.validation, projection_.validation_residual(), model_.scales, problem_.data);
   const auto after = tool_errors_mm(linearization_.validation, trial.validation_residual, model_.scales, problem_.data);
   const Resampled draws = resampled(linearization_.fitted, trial, projection_.residual(), rules_.resamples,
-                                    random(RandomPurpose::effect_scatter));
+                                    random(RandomPurpose::effect_scatter), rules_.do_work);
   Round round;
   round.number = rules_.first_round + static_cast<int>(outcome_.rounds.size());
   round.group = rules_.group;
@@ -171,7 +171,7 @@ Confirmation Group::confirmation_of(const Eigen::VectorXd& before, const Eigen::
   return confirmation(pose_errors_mm(linearization_.validation, before, model_.scales),
                       pose_errors_mm(linearization_.validation, after, model_.scales),
                       pose_errors_mm(linearization_.validation, before - after, model_.scales),
-                      linearization_.validation.group, random(purpose));
+                      linearization_.validation.group, random(purpose), rules_.do_work);
 }
 
 std::string Group::rejection_reason(const Round& round, const Projection::Trial& trial) const {

@@ -13,7 +13,6 @@
 #include "diagnosis/judgement.hpp"
 #include "diagnosis/outcome.hpp"
 #include "diagnosis/scan.hpp"
-#include "draws/draw_work.hpp"
 #include "effects/effect.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_purpose.hpp"
@@ -21,6 +20,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline diagnosis {
 
@@ -35,7 +35,7 @@ struct GroupRules {
   int first_round = 1;  ///< number of the group's first round
   double p_structure = 1.0;
   std::vector<double> evolved_null_gains{};  ///< of LoopOptions
-  MakeDraws make_draws = demecal::make_draws;
+  DoWork do_work = demecal::do_work;
 };
 
 /// The share of a null distribution (ascending), the found value counted among it, that explains as much.

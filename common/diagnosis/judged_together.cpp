@@ -18,7 +18,6 @@
 #include "effect_sets/fitted_set.hpp"
 #include "effects/effect.hpp"
 #include "effects/law_terms.hpp"
-#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "products/tall_products.hpp"
 #include "random/distributions.hpp"
@@ -113,12 +112,13 @@ Round JointJudgement::round_of(const Effect& effect, const Projection::Trial& tr
         confirmation(pose_errors_mm(validation, without, model_.scales),
                      pose_errors_mm(validation, trial.validation_residual, model_.scales),
                      pose_errors_mm(validation, without - trial.validation_residual, model_.scales), validation.group,
-                     random(RandomPurpose::effect_gain, number));
+                     random(RandomPurpose::effect_gain, number), end_.rules.do_work);
     round.confirmed = borne_out.share;
     round.confirmed_lower = borne_out.lower;
   }
-  const Resampled draws = resampled(linearization_.fitted, trial, left + trial.fitted * trial.coefficients,
-                                    end_.rules.resamples, random(RandomPurpose::effect_scatter, number));
+  const Resampled draws =
+      resampled(linearization_.fitted, trial, left + trial.fitted * trial.coefficients, end_.rules.resamples,
+                random(RandomPurpose::effect_scatter, number), end_.rules.do_work);
   round.sign_stability = draws.sign_stability;
   round.interval = draws.interval;
   round.diagnosis = law_of(effect).diagnosis(round.effect, end_.problem.data.robot);
@@ -150,11 +150,10 @@ std::vector<Round> judged_together(const LoopEnd& end, const DiagnosedModel& mod
   const Eigen::MatrixXd inverse = scale.asDiagonal() * Cholesky(scaled).inverse() * scale.asDiagonal();
   const double squares = linearization.projection.squares() - all.drop;
   const JointJudgement judgement(end, model, linearization);
-  std::vector<Round> rounds(effects.size());
-  in_pieces(rounds.size(), [&](std::size_t i) {
-    rounds[i] = judgement.round_of(effects[i], beside_others(all, inverse, columns.fitted.spans()[i]), left, squares,
-                                   static_cast<int>(i));
-  });
+  std::vector<Round> rounds;
+  for (std::size_t i = 0; i < effects.size(); ++i)
+    rounds.push_back(judgement.round_of(effects[i], beside_others(all, inverse, columns.fitted.spans()[i]), left,
+                                        squares, static_cast<int>(i)));
   return rounds;
 }
 

@@ -19,28 +19,27 @@
 #include "prediction/measurement.hpp"
 #include "products/tall_products.hpp"
 #include "random/distributions.hpp"
+#include "shared_work/resamplings.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {
 
-constexpr int kConfirmationDraws = 1000;
+constexpr std::uint32_t kConfirmationDraws = 1000;
 
 double huber_square(double error, double threshold) {
   return error <= threshold ? error * error : threshold * (2.0 * error - threshold);
 }
 
-/// Calls each(draw, as many of `count` things as there are, with replacement) for every draw.
-void draw_in_pieces(std::size_t draws, std::uint64_t name, std::size_t count,
-                    const std::function<void(std::size_t, const std::vector<std::size_t>&)>& each) {
-  constexpr std::size_t kAtOnce = 50;  // to begin a stream takes as long as hundreds of numbers
-  in_pieces((draws + kAtOnce - 1) / kAtOnce, [&](std::size_t piece) {
-    RandomStream own{name, piece};
-    std::vector<std::size_t> chosen(count);
-    const std::size_t end = std::min((piece + 1) * kAtOnce, draws);
-    for (std::size_t draw = piece * kAtOnce; draw < end; ++draw) {
-      own.indices(count, chosen);
-      each(draw, chosen);
-    }
+constexpr std::uint32_t kResamplingsOfPiece = 50;  ///< to begin a stream takes as long as hundreds of numbers
+
+/// Calls each(draw, the sum of as many columns as there are, drawn with replacement) for every draw.
+void for_each_resampling(Eigen::MatrixXd columns, std::uint32_t draws, RandomStream random, const DoWork& do_work,
+                         const std::function<void(std::size_t, const double*)>& each) {
+  const auto numbers = static_cast<std::size_t>(columns.rows());
+  const auto sums = do_work(Resamplings(std::move(columns), {draws, random.name(), kResamplingsOfPiece}));
+  in_pieces(sums.size(), [&](std::size_t piece) {
+    for (std::size_t i = 0; i * numbers < sums[piece].size(); ++i)
+      each(piece * kResamplingsOfPiece + i, sums[piece].data() + i * numbers);
   });
 }
 
@@ -172,7 +171,7 @@ std::vector<double> pose_errors_mm(const ResidualField& field, const Eigen::Vect
 
 Confirmation confirmation(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
                           const std::vector<double>& moved_mm, const std::vector<std::size_t>& group,
-                          RandomStream random) {
+                          RandomStream random, const DoWork& do_work) {
   struct Sums {
     double borne_out_mm2 = 0.0;
     double moved_mm2 = 0.0;
@@ -194,15 +193,15 @@ Confirmation confirmation(const std::vector<double>& before_mm, const std::vecto
     sums_of_groups[group[i]] += pose;
     all += pose;
   }
-  std::vector<Sums> groups;
-  for (const auto& [first, sums] : sums_of_groups) groups.push_back(sums);
+  Eigen::MatrixXd columns(2, static_cast<Eigen::Index>(sums_of_groups.size()));
+  Eigen::Index next = 0;
+  for (const auto& [first, sums] : sums_of_groups)
+    columns.col(next++) = Eigen::Vector2d(sums.borne_out_mm2, sums.moved_mm2);
   std::vector<double> shares(kConfirmationDraws);
-  const std::uint64_t name = random.name();
-  draw_in_pieces(shares.size(), name, groups.size(), [&](std::size_t draw, const std::vector<std::size_t>& chosen) {
-    Sums drawn;
-    for (const std::size_t i : chosen) drawn += groups[i];
-    shares[draw] = drawn.share();
-  });
+  for_each_resampling(std::move(columns), kConfirmationDraws, random, do_work,
+                      [&](std::size_t draw, const double* sums) {
+                        shares[draw] = Sums{sums[0], sums[1]}.share();
+                      });
   return {all.share(), quantile(shares, 0.05)};
 }
 
@@ -226,19 +225,16 @@ LargestMotion farthest_motion(const Effect& effect, const Robot& robot, const st
 }
 
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
-                    RandomStream random) {
-  const Eigen::MatrixXd sums = pose_sums(field, trial, left);
+                    RandomStream random, const DoWork& do_work) {
   const Eigen::Index m = trial.coefficients.size();
   const Eigen::MatrixXd whole = square_product(trial.fitted);
-  const std::uint64_t name = random.name();
   Eigen::MatrixXd drawn(m, draws);
-  const auto poses = static_cast<std::size_t>(sums.cols());
-  draw_in_pieces(static_cast<std::size_t>(draws), name, poses,
-                 [&](std::size_t draw, const std::vector<std::size_t>& chosen) {
-                   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(m, m + 1);
-                   for (const std::size_t pose : chosen) sum.reshaped() += sums.col(static_cast<Eigen::Index>(pose));
-                   drawn.col(static_cast<Eigen::Index>(draw)) = solve_normal_equations(sum.leftCols(m), sum.col(m));
-                 });
+  for_each_resampling(pose_sums(field, trial, left), static_cast<std::uint32_t>(draws), random, do_work,
+                      [&](std::size_t draw, const double* sums) {
+                        const Eigen::Map<const Eigen::MatrixXd> sum(sums, m, m + 1);
+                        drawn.col(static_cast<Eigen::Index>(draw)) =
+                            solve_normal_equations(sum.leftCols(m), sum.col(m));
+                      });
   Resampled result;
   const Eigen::RowVectorXd along = (whole * trial.coefficients).transpose() * drawn;
   result.sign_stability = static_cast<double>((along.array() > 0.0).count()) / draws;

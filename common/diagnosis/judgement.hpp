@@ -15,6 +15,7 @@
 #include "residuals/diagnosed_model.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline diagnosis {
 
@@ -37,7 +38,7 @@ struct Confirmation {
 /// not decide. Zero where nothing moves.
 Confirmation confirmation(const std::vector<double>& before_mm, const std::vector<double>& after_mm,
                           const std::vector<double>& moved_mm, const std::vector<std::size_t>& group,
-                          RandomStream random);
+                          RandomStream random, const DoWork& do_work = demecal::do_work);
 
 /// The largest motion that an effect's ripple, load or side makes of any place over the states: how far it strays from
 /// its own mean there, rad for turns, m for shifts.
@@ -56,7 +57,7 @@ struct Resampled {
   std::vector<std::array<double, 2>> interval;  ///< 2.5 % and 97.5 % of every coefficient
 };
 Resampled resampled(const ResidualField& field, const Projection::Trial& trial, const Eigen::VectorXd& left, int draws,
-                    RandomStream random);
+                    RandomStream random, const DoWork& do_work = demecal::do_work);
 
 /// Nats by which one description must be shorter than another to be preferred.
 inline constexpr double kNatsToDistinguish = 5.0;

@@ -62,7 +62,7 @@ class ClosedLoop {
   }
   double structure(const Linearization& linearization) const {
     return structure_p_value(linearization.fitted, linearization.projection, problem_.data.robot.chain,
-                             options_.null_draws, random(RandomPurpose::structure_test), options_.work.make_draws);
+                             options_.null_draws, random(RandomPurpose::structure_test), options_.work.do_work);
   }
 
   const DiagnosisProblem& problem_;
@@ -149,7 +149,7 @@ GroupRules ClosedLoop::rules() const {
           .first_round = static_cast<int>(outcome_.rounds.size()) + 1,
           .p_structure = p_structure_,
           .evolved_null_gains = options_.evolved_null_gains,
-          .make_draws = options_.work.make_draws};
+          .do_work = options_.work.do_work};
 }
 
 /// Candidates that the model holds already, or that the backward step took back.
@@ -270,13 +270,14 @@ Linearization ClosedLoop::choose_explanation(Linearization linearization, const 
 }
 
 void ClosedLoop::finish(const Linearization& linearization) {
-  const BoundOptions bounds{options_.family_error, options_.null_draws, options_.work.make_draws};
+  const BoundOptions bounds{options_.family_error, options_.null_draws, options_.work.do_work};
   outcome_.p_structure_left = p_structure_;
   outcome_.noise = model_.noise;
   outcome_.noise_estimated = model_.noise_estimated;
   outcome_.independent_m = model_.scales[kPosition];
   update_rounds(outcome_, model_.robot, problem_.data.robot);
-  const Scan scan(columns_, naming_costs_nats(candidates_), linearization.fitted, linearization.projection);
+  const Scan scan(columns_, naming_costs_nats(candidates_), linearization.fitted, linearization.projection,
+                  options_.work.do_work);
   const FinishedLoop finished{problem_.data.robot, model_, linearization, candidates_, columns_, scan, outcome_.rounds};
   update_rivals(finished, outcome_.rounds);
   exclude_own_forms(outcome_.rounds);

@@ -12,7 +12,6 @@
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/outcome.hpp"
-#include "draws/draw_work.hpp"
 #include "effect_sets/set_island.hpp"
 #include "explanations/error_budget.hpp"
 #include "explanations/explanation_search.hpp"
@@ -22,13 +21,14 @@
 #include "prediction/corrected_robot.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline diagnosis {
 
 /// Who does what others can do as well, to the bit: this process, or workers too.
 struct LoopWork {
   SearchExplanations search_explanations = demecal::search_explanations;
-  MakeDraws make_draws = demecal::make_draws;
+  DoWork do_work = demecal::do_work;
 };
 
 struct LoopOptions {

@@ -10,13 +10,13 @@
 #include <string>
 
 #include "decompositions/decompositions.hpp"
-#include "draws/gain_draws.hpp"
 #include "effects/effect.hpp"
 #include "expression/tree.hpp"
 #include "pieces/pieces.hpp"
 #include "primitives/primitive.hpp"
 #include "products/tall_products.hpp"
 #include "residuals/found_noise.hpp"
+#include "shared_work/gain_draws.hpp"
 
 namespace demecal::inline diagnosis {
 namespace {
@@ -52,7 +52,7 @@ ModelPart part_of_model(const Eigen::MatrixXd& to_basis, const Eigen::VectorXd& 
 }
 
 Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
-           const Projection& model)
+           const Projection& model, const DoWork& do_work)
     : spans_(columns.spans()),
       naming_costs_nats_(naming_costs_nats),
       whole_(columns.squares(field)),
@@ -60,7 +60,7 @@ Scan::Scan(const EffectColumns& columns, const std::vector<double>& naming_costs
   RowMatrix basis_and_residual(field.rows(), model.rank() + 1);
   basis_and_residual.leftCols(model.rank()) = model.basis();
   basis_and_residual.col(model.rank()) = model.residual();
-  const Eigen::MatrixXd products = columns.transposed_times(field, basis_and_residual);
+  const Eigen::MatrixXd products = columns.transposed_times(field, basis_and_residual, do_work);
   along_ = products.leftCols(model.rank());
   moment_ = products.col(model.rank());
   squares_ = model.squares();
@@ -144,7 +144,7 @@ std::vector<double> Scan::cosines(const Eigen::MatrixXd& products, double square
 }
 
 std::vector<double> Scan::null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
-                                      int count, RandomStream random, const MakeDraws& make) const {
+                                      int count, RandomStream random, const DoWork& make) const {
   std::vector<GainCandidate> candidates;
   for (std::size_t i = 0; i < spans_.size(); ++i)
     candidates.push_back({spans_[i].first, grams_[i].rank, naming_costs_nats_[i], grams_[i].inverse});

@@ -9,14 +9,14 @@
 
 #include "diagnosis/candidates.hpp"
 #include "diagnosis/outcome.hpp"
-#include "draws/draw_work.hpp"
-#include "draws/gain_draws.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effects/effect.hpp"
 #include "next_measurement/next_measurement.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/gain_draws.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline diagnosis {
 
@@ -42,8 +42,9 @@ ModelPart part_of_model(const Eigen::MatrixXd& to_basis, const Eigen::VectorXd& 
 class Scan {
  public:
   /// `naming_costs_nats`: per candidate, the price of naming it (log of the number of its like).
+  /// `do_work` makes the products of the candidates' columns with the model and its residual.
   Scan(const EffectColumns& columns, const std::vector<double>& naming_costs_nats, const ResidualField& field,
-       const Projection& model);
+       const Projection& model, const DoWork& do_work = demecal::do_work);
 
   /// Brings the scan up to date with a model that took a trial in. `products`: columns^T the trial's new ones.
   void follow(const Eigen::MatrixXd& products, const Projection::Trial& trial, const Projection& model);
@@ -68,7 +69,7 @@ class Scan {
   /// The largest gain_nats of any candidate, ascending, over `count` draws of the noise in place of the
   /// whitened residual, fitted by the model: a rotation test (Langsrud, 2005). `make` makes the draws.
   std::vector<double> null_maxima(const EffectColumns& columns, const ResidualField& field, const Projection& model,
-                                  int count, RandomStream random, const MakeDraws& make = make_draws) const;
+                                  int count, RandomStream random, const DoWork& make = do_work) const;
 
  private:
   struct Gram {

@@ -18,7 +18,7 @@ namespace {
 AnyIsland make_island(const RunData& run, IslandKey key) {
   const CalibrationData& data = run.data;
   if (data.breeds == Breeds::sets) return SetIsland(run.problem, search_of(data.sets), key);
-  if (data.breeds == Breeds::draws) return DrawIsland(*run.draws, key);
+  if (data.breeds == Breeds::work) return PieceIsland(*run.work, key);
   return Island(data.parameters, data.archipelago, run.table(key.joint), key, data.seed);
 }
 
@@ -39,18 +39,18 @@ std::string best_text(const SetIsland& island, const RunData& run) {
   return text;
 }
 
-std::string best_text(const DrawIsland&, const RunData&) {
+std::string best_text(const PieceIsland&, const RunData&) {
   return {};
 }
 
 }  // namespace
 
-/// The matrices are held once: as those of the problem or of the draws.
+/// The matrices are held once: as those of the problem or of the work.
 RunData::RunData(CalibrationData received) : data(std::move(received)) {
-  if (data.breeds == Breeds::draws) {
-    draws = draw_work(data.draws);
-    data.draws.lists = {};
-    data.draws.tables = {};
+  if (data.breeds == Breeds::work) {
+    work = shared_work(data.work);
+    data.work.lists = {};
+    data.work.tables = {};
   }
   if (data.breeds != Breeds::sets) return;
   problem = problem_of(data.sets);

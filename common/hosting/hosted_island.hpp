@@ -14,16 +14,16 @@
 #include <variant>
 #include <vector>
 
-#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "evolution/population.hpp"
 #include "fitness/fitness.hpp"
-#include "hosting/draw_island.hpp"
 #include "hosting/migrants.hpp"
+#include "hosting/piece_island.hpp"
 #include "protocol/messages.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline hosting {
 
@@ -70,13 +70,13 @@ struct RunData {
   explicit RunData(CalibrationData received);
 
   CalibrationData data;
-  ExplanationProblem problem;       ///< where sets of effects are bred
-  std::unique_ptr<DrawWork> draws;  ///< where these are made
+  ExplanationProblem problem;        ///< where sets of effects are bred
+  std::unique_ptr<SharedWork> work;  ///< where pieces of it are done
   const TrainingTable& table(std::uint32_t joint) const;
 };
 
-/// An island of formulas, one of sets of effects, or a piece of draws.
-using AnyIsland = std::variant<Island, SetIsland, DrawIsland>;
+/// An island of formulas, one of sets of effects, or a piece of work.
+using AnyIsland = std::variant<Island, SetIsland, PieceIsland>;
 
 class HostedIsland {
  public:

@@ -67,7 +67,7 @@ struct Bounds {
   const Archipelago& archipelago;
   const SetTraining* sets;  ///< where these are bred
   int variables;            ///< of the island's joint
-  bool draws = false;       ///< where these are made: nothing is bred
+  bool work = false;        ///< where pieces of it are done: nothing is bred
   std::size_t numbers = 0;  ///< that the island ends with
 
   std::uint32_t generations() const { return static_cast<std::uint32_t>(parameters.number_generations); }
@@ -98,14 +98,14 @@ Bounds bounds_of(const IslandKey& island, const CalibrationData& data) {
   const auto& joints = data.archipelago.joints;
   const auto place = std::lower_bound(joints.begin(), joints.end(), island.joint) - joints.begin();
   if (data.breeds == Breeds::sets) return {data.parameters, data.archipelago, &data.sets, 0};
-  if (data.breeds == Breeds::draws)
-    return {data.parameters, data.archipelago, nullptr, 0, true, data.draws.numbers_of_piece(island.deme)};
+  if (data.breeds == Breeds::work)
+    return {data.parameters, data.archipelago, nullptr, 0, true, data.work.numbers_of_pieces[island.deme]};
   const auto variables = static_cast<int>(data.tables[static_cast<std::size_t>(place)].variables.size());
   return {data.parameters, data.archipelago, nullptr, variables};
 }
 
 Fault population_fault(const Population& population, const Bounds& bounds) {
-  if (bounds.draws) return population.empty() ? Fault{} : Fault{"individuals where nothing is bred"};
+  if (bounds.work) return population.empty() ? Fault{} : Fault{"individuals where nothing is bred"};
   return bounds.sets != nullptr ? find_fault(population, *bounds.sets)
                                 : find_fault(population, bounds.parameters, bounds.variables);
 }
@@ -126,14 +126,15 @@ Fault front_fault(const Population& front, const Bounds& bounds) {
 
 /// Formulas are as many as the job says; of sets it depends on how many numbers of causes are reached.
 bool is_full(const Population& population, const Bounds& bounds) {
-  if (bounds.draws) return population.empty();
+  if (bounds.work) return population.empty();
   if (bounds.sets != nullptr) return !population.empty() && population.size() <= bounds.sets->most_kept();
   return population.size() == static_cast<std::size_t>(bounds.parameters.population_size);
 }
 
 Fault numbers_fault(const std::vector<double>& numbers, std::size_t count) {
-  if (numbers.size() != count) return "more or fewer numbers than draws give";
-  if (std::ranges::any_of(numbers, [](double number) { return std::isnan(number); })) return "a draw is not a number";
+  if (numbers.size() != count) return "more or fewer numbers than the piece gives";
+  if (std::ranges::any_of(numbers, [](double number) { return std::isnan(number); }))
+    return "a number of a piece is none";
   return std::nullopt;
 }
 
@@ -198,10 +199,10 @@ Fault find_fault(const CalibrationData& data) {
   if (auto fault = archipelago_fault(data.archipelago)) return fault;
   if (data.archipelago.migrants > static_cast<std::uint32_t>(data.parameters.population_size))
     return "more migrants than individuals";
-  if (data.breeds != Breeds::draws && data.draws != DrawInputs{}) return "draws where individuals are bred";
+  if (data.breeds != Breeds::work && data.work != WorkInputs{}) return "work where individuals are bred";
   if (data.breeds == Breeds::sets) return find_set_fault(data);
   if (!data.sets.columns.empty()) return "effects of sets where none are bred";
-  if (data.breeds == Breeds::draws) return find_draw_fault(data);
+  if (data.breeds == Breeds::work) return find_work_fault(data);
   if (data.tables.size() != data.archipelago.joints.size()) return "not one table per joint";
   for (const TrainingTable& table : data.tables)
     if (auto fault = table_fault(table, data.parameters)) return fault;

@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "draws/draw_work.hpp"
 #include "effect_sets/set_training.hpp"
 #include "evolution/population.hpp"
 #include "fitness/parameters.hpp"
 #include "protocol/messages.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline protocol {
 
@@ -27,7 +27,7 @@ inline constexpr int kMostGenerations = 100'000'000;
 inline constexpr int kMostAttempts = 100'000;  ///< at a valid offspring
 inline constexpr std::size_t kMostRows = 1'000'000;
 inline constexpr std::size_t kMostColumns = 2890;           ///< of all effects: their products fit into a message
-inline constexpr std::size_t kMostDrawNumbers = 8'000'000;  ///< of all lists and tables: they fit into a message
+inline constexpr std::size_t kMostWorkNumbers = 8'000'000;  ///< of all lists and tables: they fit into a message
 inline constexpr std::size_t kMostSetEffects = 1000;        ///< effects of a set
 inline constexpr int kMostVariations = 100'000'000;         ///< of sets, on all islands
 inline constexpr std::uint32_t kMostSlots = 4096;           ///< of one worker
@@ -35,13 +35,13 @@ inline constexpr std::uint32_t kMostSlots = 4096;           ///< of one worker
 /// Parameters hold their rules and the bounds above; joints ascending and below kMostJoints; counts positive; one table
 /// per joint whose columns are finite and as long as each other, with weights from 0 to 1 and no more seeds than a
 /// population holds; or matrices of effects that belong together, no tables, and the islands of a SetIsland; or what
-/// draws are made of, and an island for each of their pieces.
+/// work is done from, and an island for each of its pieces.
 Fault find_fault(const CalibrationData& data);
 
 /// The same where sets of effects are bred, but for what all data have in common.
 Fault find_set_fault(const CalibrationData& data);
-/// The same where draws are made.
-Fault find_draw_fault(const CalibrationData& data);
+/// The same where work is done in pieces.
+Fault find_work_fault(const CalibrationData& data);
 
 /// The island is one of the run's, worker named, the start state consistent, recent emigrations its own. As for all
 /// that follow, `data` is that of the message's run; a message of another run is a fault.
@@ -57,7 +57,7 @@ Fault find_fault(const Checkpoint& checkpoint, const CalibrationData& data);
 Fault find_fault(const Outcome& outcome, const CalibrationData& data);
 
 /// Whether they are few enough numbers for a message.
-bool fit_into_message(const DrawInputs& inputs);
+bool fit_into_message(const WorkInputs& inputs);
 
 /// The worker is named, has from 1 to kMostSlots slots, and waited for a share from 0 to 1.
 Fault find_fault(const WorkerStatus& status);

@@ -12,8 +12,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "draws/draw_work.hpp"
 #include "protocol/messages.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline protocol {
 
@@ -100,9 +100,9 @@ inline constexpr EnumerationList kEnumeration<Replacement>{"Replacement", "WORST
 template <>
 inline constexpr EnumerationList kEnumeration<Loss>{"Loss", "ABSOLUTE_ERROR, SQUARED_ERROR"};
 template <>
-inline constexpr EnumerationList kEnumeration<Breeds>{"Breeds", "FORMULAS, SETS, DRAWS"};
+inline constexpr EnumerationList kEnumeration<Breeds>{"Breeds", "FORMULAS, SETS, WORK"};
 template <>
-inline constexpr EnumerationList kEnumeration<DrawKind>{"DrawKind", "AGREEMENTS, GAINS"};
+inline constexpr EnumerationList kEnumeration<WorkKind>{"WorkKind", "AGREEMENTS, GAINS, RESAMPLINGS, PRODUCTS"};
 
 /// The words of an enumeration that people read, in the order of its values: on monitoring topics and in events.
 template <class E>

@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "draws/draw_work.hpp"
 #include "effect_sets/set_training.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
@@ -17,6 +16,7 @@
 #include "protocol/finding_fields.hpp"
 #include "protocol/messages.hpp"
 #include "protocol/training_fields.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline protocol {
 
@@ -69,7 +69,7 @@ void visit_fields(Visitor& visit, M& m) {
   visit("tables", m.tables);
   visit("breeds", m.breeds);
   visit("sets", m.sets);
-  visit("draws", m.draws);
+  visit("work", m.work);
 }
 
 /// What messages of an island begin with.

@@ -48,10 +48,10 @@ CalibrationData data_of_search(const ExplanationProblem& problem, const SetSearc
   return data;
 }
 
-CalibrationData data_of_draws(const DrawWork& work) {
+CalibrationData data_of_work(const SharedWork& work) {
   CalibrationData data;
-  data.breeds = Breeds::draws;
-  data.draws = work.inputs();
+  data.breeds = Breeds::work;
+  data.work = work.inputs();
   data.parameters.number_generations = 1;
   data.archipelago.joints = {0};
   data.archipelago.demes_per_joint = static_cast<std::uint32_t>(work.pieces());

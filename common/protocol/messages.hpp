@@ -11,7 +11,6 @@
 #include <variant>
 #include <vector>
 
-#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "effect_sets/set_training.hpp"
@@ -21,6 +20,7 @@
 #include "fitness/fitness.hpp"
 #include "fitness/parameters.hpp"
 #include "protocol/findings.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline protocol {
 
@@ -38,8 +38,8 @@ inline constexpr std::size_t kMostFormulaText = 511;
 /// Names one evolution of one job; a coordinator that evolves again uses a new one.
 using RunId = std::uint64_t;
 
-/// What individuals are, or that none are bred: the islands are pieces of many random draws.
-enum class Breeds { formulas, sets, draws };
+/// What individuals are, or that none are bred: the islands are pieces of other work.
+enum class Breeds { formulas, sets, work };
 
 /// Coordinator -> workers, once per run: all that islands need to know but which of them to work on.
 struct CalibrationData {
@@ -51,7 +51,7 @@ struct CalibrationData {
   std::vector<TrainingTable> tables;  ///< parallel to archipelago.joints; none where no formulas are bred
   Breeds breeds = Breeds::formulas;
   SetTraining sets{};  ///< where these are bred, on islands of joint 0
-  DrawInputs draws{};  ///< where these are made: deme i of joint 0 makes piece i in its last epoch
+  WorkInputs work{};   ///< where pieces of it are done: deme i of joint 0 makes piece i in its last epoch
 
   bool operator==(const CalibrationData&) const = default;
 };
@@ -59,8 +59,8 @@ struct CalibrationData {
 /// The data of a run that breeds sets of effects, without its number, the job and the seed.
 CalibrationData data_of_search(const ExplanationProblem& problem, const SetSearch& search);
 
-/// The same of one that makes draws.
-CalibrationData data_of_draws(const DrawWork& work);
+/// The same of one whose islands do work in pieces.
+CalibrationData data_of_work(const SharedWork& work);
 
 /// Worker -> workers: the elites of an island after an epoch.
 struct Migrants {
@@ -140,7 +140,7 @@ struct Outcome {
   std::uint64_t evaluations = 0;
   std::uint64_t migrants_taken = 0;
   Population front;               ///< best of each length
-  std::vector<double> numbers{};  ///< of draws
+  std::vector<double> numbers{};  ///< of a piece of work
 
   bool operator==(const Outcome&) const = default;
 };

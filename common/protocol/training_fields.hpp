@@ -1,12 +1,12 @@
 // The fields of what islands learn or draw from, as fields.hpp lists those of messages.
 #pragma once
 
-#include "draws/draw_work.hpp"
 #include "effect_sets/set_training.hpp"
 #include "evolution/archipelago.hpp"
 #include "fitness/fitness.hpp"
 #include "fitness/parameters.hpp"
 #include "protocol/field_kinds.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline protocol {
 
@@ -88,17 +88,16 @@ void visit_fields(Visitor& visit, M& m) {
   visit("stream", m.stream);
 }
 
-template <class Visitor, Fields<DrawTable> M>
+template <class Visitor, Fields<WorkTable> M>
 void visit_fields(Visitor& visit, M& m) {
   visit("rows", m.rows);
   visit("numbers", m.numbers);
 }
 
-template <class Visitor, Fields<DrawInputs> M>
+template <class Visitor, Fields<WorkInputs> M>
 void visit_fields(Visitor& visit, M& m) {
   visit("kind", m.kind);
-  visit("draws", m.draws);
-  visit("numbers_of_draw", m.numbers_of_draw);
+  visit("numbers_of_pieces", m.numbers_of_pieces);
   visit("stream", m.stream);
   visit("lists", m.lists);
   visit("tables", m.tables);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "draws/feature_blocks.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
@@ -14,6 +13,7 @@
 #include "pieces/pieces.hpp"
 #include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/feature_blocks.hpp"
 
 namespace demecal::inline residuals {
 namespace {
@@ -79,14 +79,10 @@ void EffectColumns::pack() {
   loose_.clear();
 }
 
-Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows) const {
+Eigen::MatrixXd EffectColumns::transposed_times(const ResidualField& field, const RowMatrix& rows,
+                                                const DoWork& do_work) const {
   DEMECAL_CHECK(rows.rows() == field.rows(), rows.rows() << " rows for " << field.rows());
-  std::vector<Eigen::MatrixXd> parts(blocks_.size());
-  in_pieces(parts.size(), [&](std::size_t i) {
-    parts[i] = transposed_product_of_columns(blocks_[i].features,
-                                             along_motion(field.first_row, field.motions, blocks_[i].motion, rows));
-  });
-  return summed(blocks_, parts, columns_, rows.cols());
+  return demecal::transposed_times(blocks_, field.first_row, field.motions, columns_, rows, do_work);
 }
 
 const FeatureBlock* EffectColumns::only_block(ColumnSpan span) const {

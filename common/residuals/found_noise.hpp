@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "draws/null_noise.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/null_noise.hpp"
 
 namespace demecal::inline residuals {
 

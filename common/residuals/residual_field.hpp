@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "data/data_set.hpp"
-#include "draws/feature_blocks.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
@@ -18,6 +17,7 @@
 #include "parameters/parameter_space.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "products/tall_products.hpp"
+#include "shared_work/feature_blocks.hpp"
 
 namespace demecal::inline residuals {
 
@@ -113,8 +113,10 @@ class EffectColumns {
   /// Of which the columns are made; `motion` is a column of ResidualField::motions.
   const std::vector<FeatureBlock>& blocks() const { return blocks_; }
 
-  /// X^T Y (size() x Y's columns) of all columns X over the field's rows and a matrix over the same rows.
-  Eigen::MatrixXd transposed_times(const ResidualField& field, const RowMatrix& rows) const;
+  /// X^T Y (size() x Y's columns) of all columns X over the field's rows and a matrix over the same rows, done by
+  /// `do_work`.
+  Eigen::MatrixXd transposed_times(const ResidualField& field, const RowMatrix& rows,
+                                   const DoWork& do_work = demecal::do_work) const;
   /// X^T X of every effect's own columns X over the field's rows.
   std::vector<Eigen::MatrixXd> squares(const ResidualField& field) const;
   /// The columns of one effect over the field's rows.

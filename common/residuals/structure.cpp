@@ -14,12 +14,12 @@
 #include <utility>
 #include <vector>
 
-#include "draws/agreement_draws.hpp"
-#include "draws/null_noise.hpp"
 #include "effects/arm_state.hpp"
 #include "products/tall_products.hpp"
 #include "random/distributions.hpp"
 #include "residuals/found_noise.hpp"
+#include "shared_work/agreement_draws.hpp"
+#include "shared_work/null_noise.hpp"
 
 namespace demecal::inline residuals {
 namespace {
@@ -155,7 +155,7 @@ JointColumns moved_by_joints(const ResidualField& field, const std::vector<std::
 }  // namespace
 
 double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int draws,
-                         RandomStream random, const MakeDraws& make) {
+                         RandomStream random, const DoWork& make) {
   const std::vector<std::size_t> poses = evenly_spaced(field.poses.size());
   if (poses.size() < 4) return 1.0;
   const std::vector<Pairs> all = circumstances(field, poses, chain);

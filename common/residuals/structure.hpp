@@ -6,12 +6,12 @@
 #include <span>
 
 #include "data/data_set.hpp"
-#include "draws/draw_work.hpp"
 #include "kinematics/chain.hpp"
 #include "parameters/observation.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline residuals {
 
@@ -22,7 +22,7 @@ namespace demecal::inline residuals {
 /// of the whitened residual (a rotation test), is compared with the largest of each draw: family-wise. At most 1000
 /// poses take part, evenly spaced. `make` makes the draws.
 double structure_p_value(const ResidualField& field, const Projection& model, const Chain& chain, int draws,
-                         RandomStream random, const MakeDraws& make = make_draws);
+                         RandomStream random, const DoWork& make = do_work);
 
 /// Repeats of a pose, from the same sides and station, give the pure error, whatever the model.
 struct PureError {

@@ -15,7 +15,7 @@
 #include "fitness/fitness.hpp"
 #include "fitness/parameters.hpp"
 #include "protocol/faults.hpp"
-#include "scheduling/shared_draws.hpp"
+#include "scheduling/shared_pieces.hpp"
 #include "transport/transport.hpp"
 
 namespace demecal::inline scheduling {
@@ -82,7 +82,7 @@ std::chrono::milliseconds longest_epoch(const SetTraining& sets) {
   return kSet * sets.variations / static_cast<int>(kSetEpochs);
 }
 
-/// However the draws end, their run does too.
+/// However the work ends, its run does too.
 struct EndsSharedRun {
   std::atomic<bool>& over;
   ~EndsSharedRun() { over = true; }
@@ -150,29 +150,31 @@ std::vector<EffectSet> IslandEvolver::search_explanations(const ExplanationProbl
   return front_of(problem, fronts);
 }
 
-std::vector<std::vector<double>> IslandEvolver::make_draws(const DrawWork& work) {
+std::vector<std::vector<double>> IslandEvolver::do_work(const SharedWork& work) {
   end_shared_run();
-  if (!options_.share_draws || no_worker_shared_ || interrupt_) return Evolver::make_draws(work);
-  CalibrationData data = data_of_draws(work);
+  if (!options_.share_work_from_s || no_worker_shared_ || interrupt_ || work.pieces() == 0)
+    return Evolver::do_work(work);
+  const auto pieces = std::make_shared<SharedPieces>(work.pieces());
+  if (pieces->do_last(work) < *options_.share_work_from_s) return pieces->do_rest(work);
+  CalibrationData data = data_of_work(work);
   data.job = job_.name;
   data.seed = job_.seed;
-  if (fault_without_run(data) || !can_start_workers()) return Evolver::make_draws(work);
+  if (fault_without_run(data) || !can_start_workers()) return pieces->do_rest(work);
   data.run = pool_->transport().new_run();
   pool_->launch(data.run);
-  const auto draws = std::make_shared<SharedDraws>(work.pieces());
   shared_run_over_ = false;
-  shared_run_ = std::async(std::launch::async, [this, draws, state = RunState(std::move(data))]() mutable {
-    return EvolutionRun(pool_->transport(), std::move(state), *draws, present_)
+  shared_run_ = std::async(std::launch::async, [this, pieces, state = RunState(std::move(data))]() mutable {
+    return EvolutionRun(pool_->transport(), std::move(state), *pieces, present_)
         .run(shared_run_over_, options_.patience);
   });
   const EndsSharedRun ends{shared_run_over_};
-  std::vector<std::vector<double>> made = draws->make_rest(work);
-  shared_pieces_.all += made.size();
-  shared_pieces_.elsewhere += draws->made_elsewhere();
-  return made;
+  std::vector<std::vector<double>> done = pieces->do_rest(work);
+  share_of_workers_.pieces += done.size();
+  share_of_workers_.elsewhere += pieces->done_elsewhere();
+  return done;
 }
 
-/// Before anything else is asked of the transport. What went wrong there is the next run's to meet: the draws are made.
+/// Before anything else is asked of the transport. What went wrong there is the next run's to meet: the work is done.
 void IslandEvolver::end_shared_run() {
   if (!shared_run_.valid()) return;
   try {

@@ -14,7 +14,6 @@
 #include "calibration/evolver.hpp"
 #include "calibration/job.hpp"
 #include "calibration/training.hpp"
-#include "draws/draw_work.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effect_sets/set_island.hpp"
 #include "evolution/archipelago.hpp"
@@ -26,6 +25,7 @@
 #include "scheduling/run_journal.hpp"
 #include "scheduling/run_state.hpp"
 #include "scheduling/worker_pool.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline scheduling {
 
@@ -46,7 +46,9 @@ struct EvolverOptions {
   bool asynchronous = false;              ///< islands wait for no neighbour: the result depends on timing
   EvolutionObserver* observer = nullptr;  ///< none: nobody
   RunJournal* journal = nullptr;          ///< where runs are recorded and taken up again; none: nowhere
-  bool share_draws = false;               ///< the closed loop's draws are made by workers too
+  /// Workers take part in the closed loop's scans, draws and resamplings that would take one thread so long; none: in
+  /// none of them.
+  std::optional<double> share_work_from_s{};
 };
 
 /// The evolutions of one calibration: the first, and those that follow when effects were found; each a run of its own.
@@ -66,9 +68,9 @@ class IslandEvolver final : public Evolver {
   /// By the pool's workers; here where none can be started or comes, or where the matrices do not fit into a message.
   /// Not journalled: it takes seconds, and what it finds is a function of its arguments.
   std::vector<EffectSet> search_explanations(const ExplanationProblem& problem, const SetSearch& search) override;
-  /// By this process and the pool's workers at once, where draws are shared and workers would take them: a worker that
-  /// is lost is not missed. These runs are neither told to the observer nor journalled.
-  std::vector<std::vector<double>> make_draws(const DrawWork& work) override;
+  /// By this process and the pool's workers at once, where work is shared and workers would take it: a worker that is
+  /// lost is not missed. These runs are neither told to the observer nor journalled.
+  std::vector<std::vector<double>> do_work(const SharedWork& work) override;
   /// Why the last search for explanations was made in this process; empty where workers made it.
   const std::string& searched_here_because() const { return searched_here_because_; }
   bool is_interrupted() const override { return interrupt_; }
@@ -79,11 +81,11 @@ class IslandEvolver final : public Evolver {
   /// Lets the pool go. It serves no more: another would be made.
   void dismiss_workers();
   RunEnd end() const { return end_; }
-  /// Of draws that were shared: pieces in all, and those that workers made first.
-  struct SharedPieces {
-    std::size_t all = 0, elsewhere = 0;
+  /// Of work that was shared: pieces in all, and those that workers were first to do.
+  struct ShareOfWorkers {
+    std::size_t pieces = 0, elsewhere = 0;
   };
-  const SharedPieces& shared_pieces() const { return shared_pieces_; }
+  const ShareOfWorkers& share_of_workers() const { return share_of_workers_; }
   /// Rows of all runs; the generations of a later one follow those of the earlier.
   std::vector<Progress> take_history() { return std::move(history_); }
   /// What the islands of the last run that was shown ended with.
@@ -114,10 +116,10 @@ class IslandEvolver final : public Evolver {
   RunFacts facts_;
   bool no_worker_came_ = false;  ///< to a search for explanations: no further one waits for any
   std::string searched_here_because_;
-  SharedPieces shared_pieces_;
-  bool no_worker_shared_ = false;  ///< the last draws: further ones are made here
+  ShareOfWorkers share_of_workers_;
+  bool no_worker_shared_ = false;  ///< the last work: further work is done here
   std::atomic<bool> shared_run_over_{false};
-  std::future<RunResult> shared_run_;    ///< of draws; it ends while the loop goes on
+  std::future<RunResult> shared_run_;    ///< of work; it ends while the loop goes on
   std::uint32_t generations_shown_ = 0;  ///< that islands of runs shown so far bred, each
 };
 

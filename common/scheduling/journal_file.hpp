@@ -53,7 +53,7 @@ std::string bytes_of(std::uint32_t number);
 std::uint32_t number_of(std::string_view bytes);
 
 /// What a journal begins with; the number is the version of its format.
-inline constexpr std::string_view kJournalHead = "demecal journal 4\n";
+inline constexpr std::string_view kJournalHead = "demecal journal 5\n";
 
 /// The record as it stands in a journal: the length of `content`, a checksum of length and content, the content.
 /// `content` must be shorter than 4 GiB.

@@ -184,7 +184,7 @@ std::string journal_of(const JobIdentity& identity, const std::vector<RunState>&
 
 bool same_evolution(const CalibrationData& a, const CalibrationData& b) {
   return a.seed == b.seed && a.parameters == b.parameters && a.archipelago == b.archipelago && a.tables == b.tables &&
-         a.breeds == b.breeds && a.sets == b.sets && a.draws == b.draws;
+         a.breeds == b.breeds && a.sets == b.sets && a.work == b.work;
 }
 
 }  // namespace demecal::inline scheduling

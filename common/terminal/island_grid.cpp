@@ -178,9 +178,9 @@ std::string Grid::cell(IslandKey key) const {
 }
 
 std::string Grid::row(std::uint32_t joint, std::uint32_t first_deme) const {
-  const std::string name = run_.data.breeds == Breeds::sets    ? "causes"
-                           : run_.data.breeds == Breeds::draws ? "draws"
-                                                               : fmt::format("joint{:>2}", joint + 1);
+  const std::string name = run_.data.breeds == Breeds::sets   ? "causes"
+                           : run_.data.breeds == Breeds::work ? "work"
+                                                              : fmt::format("joint{:>2}", joint + 1);
   std::string text = left_aligned(first_deme == 0 ? name : "", kLabel);
   const std::size_t end = std::min(demes(), first_deme + blocks(detail_));
   for (std::size_t deme = first_deme; deme < end; ++deme) {

@@ -86,7 +86,7 @@ class AnnouncedEvolver final : public Evolver {
       observer_.on_message("explanations were evolved in this process: " + islands_.searched_here_because());
     return found;
   }
-  std::vector<std::vector<double>> make_draws(const DrawWork& work) override { return islands_.make_draws(work); }
+  std::vector<std::vector<double>> do_work(const SharedWork& work) override { return islands_.do_work(work); }
   void announce(Purpose purpose) override {
     if (purpose == Purpose::null_distribution) ++null_searches_;
     observer_.on_message(search_words(purpose, null_searches_));
@@ -146,11 +146,11 @@ std::vector<JointCandidates> learn(const DataSet& data, const Job& job, IslandEv
 }
 
 /// What sharing came to, where there was any.
-void announce_shared_draws(const IslandEvolver& islands, CalibrationObserver& observer) {
-  const IslandEvolver::SharedPieces& pieces = islands.shared_pieces();
-  if (pieces.all == 0) return;
-  observer.on_message("workers made " + std::to_string(pieces.elsewhere) + " of " + std::to_string(pieces.all) +
-                      " batches of the random draws that significance is judged by");
+void announce_shared_work(const IslandEvolver& islands, CalibrationObserver& observer) {
+  const IslandEvolver::ShareOfWorkers& share = islands.share_of_workers();
+  if (share.pieces == 0) return;
+  observer.on_message("workers did " + std::to_string(share.elsewhere) + " of " + std::to_string(share.pieces) +
+                      " pieces of the closed loop's scans, draws and resamplings");
 }
 
 /// Closes the loop around result.calibration.
@@ -182,7 +182,7 @@ CalibrateResult calibrate_without_corrections(const DataSet& data, const Job& jo
   };
   Diagnosis diagnosis = diagnose(data, job, std::nullopt, watch, work_of(evolver));
   islands.dismiss_workers();
-  announce_shared_draws(islands, observer);
+  announce_shared_work(islands, observer);
   CalibrateResult& result = diagnosis.result;
   if (interrupt) result.end = RunEnd::interrupted;
   RunFacts facts = islands.facts();
@@ -246,8 +246,9 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
   if (job.method == Method::structural) return calibrate_structurally(data, job, interrupt, options);
   CalibrationObserver nobody;
   CalibrationObserver& observer = options.observer == nullptr ? nobody : *options.observer;
-  IslandEvolver islands(job, make_pool, interrupt,
-                        {options.patience, options.asynchronous, &observer, options.journal, options.share_draws});
+  IslandEvolver islands(
+      job, make_pool, interrupt,
+      {options.patience, options.asynchronous, &observer, options.journal, options.share_work_from_s});
   if (job.method == Method::diagnose) return calibrate_without_corrections(data, job, islands, interrupt, observer);
   CalibrateResult result;
   if (evolves_on_islands(job)) islands.start_workers();
@@ -260,7 +261,7 @@ CalibrateResult calibrate(const DataSet& data, const Job& job, const MakeWorkerP
   if (result.end == RunEnd::finished && job.closed_loop.max_effects > 0)
     close_the_loop(data, job, islands, interrupt, observer, result);
   islands.dismiss_workers();
-  announce_shared_draws(islands, observer);
+  announce_shared_work(islands, observer);
   result.model = make_model(data, job, result.calibration);
   result.model.functions = result.functions;
   result.history = islands.take_history();

@@ -56,10 +56,10 @@ class CalibrationObserver : public EvolutionObserver {
 
 struct CalibrateOptions {
   RunPatience patience;
-  bool asynchronous = false;                ///< islands wait for no neighbour: the result depends on timing
-  CalibrationObserver* observer = nullptr;  ///< none: nobody
-  RunJournal* journal = nullptr;            ///< where evolutions are recorded and taken up again; none: nowhere
-  bool share_draws = false;                 ///< workers make the closed loop's draws too
+  bool asynchronous = false;                  ///< islands wait for no neighbour: the result depends on timing
+  CalibrationObserver* observer = nullptr;    ///< none: nobody
+  RunJournal* journal = nullptr;              ///< where evolutions are recorded and taken up again; none: nowhere
+  std::optional<double> share_work_from_s{};  ///< as of EvolverOptions
 };
 
 struct CalibrateResult {
@@ -126,8 +126,8 @@ struct Diagnosis {
 };
 
 /// Runs the loop on `known`, a model found before, its numbers fitted again; without it on the job's declared model.
-/// Ends early when `watch` returns false. `work`: who evolves explanations and makes draws, this process unless told
-/// otherwise. Throws InputError for data that the model cannot be fitted to.
+/// Ends early when `watch` returns false. `work`: who evolves explanations and does what is done in pieces, this
+/// process unless told otherwise. Throws InputError for data that the model cannot be fitted to.
 Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<CalibratedModel>& known,
                    const RoundWatcher& watch, const LoopWork& work = {});
 

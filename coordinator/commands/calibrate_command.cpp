@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <system_error>
+#include <type_traits>
 #include <vector>
 
 #include "calibration/job.hpp"
@@ -50,7 +51,8 @@ struct CalibrateRequest {
   std::optional<std::uint64_t> seed;
   std::optional<int> max_effects;
   double worker_timeout_s = 30.0;
-  bool quiet = false, asynchronous = false, no_evolution = false, share_draws = false, force = false;
+  std::optional<double> share_work_from_s;
+  bool quiet = false, asynchronous = false, no_evolution = false, force = false;
 };
 
 Job job_of(const CalibrateRequest& request) {
@@ -144,40 +146,31 @@ class ObserverPair final : public CalibrationObserver {
   ObserverPair(CalibrationObserver& first, CalibrationObserver& second) : observers_{&first, &second} {}
 
   void on_run_begins(const CalibrationData& data, const std::vector<Progress>& reached, bool shown) override {
-    for (CalibrationObserver* one : observers_) one->on_run_begins(data, reached, shown);
+    tell(&CalibrationObserver::on_run_begins, data, reached, shown);
   }
-  void on_run_ends(RunEnd end) override {
-    for (CalibrationObserver* one : observers_) one->on_run_ends(end);
-  }
-  void on_workers_end() override {
-    for (CalibrationObserver* one : observers_) one->on_workers_end();
-  }
-  void on_progress(const Progress& progress) override {
-    for (CalibrationObserver* one : observers_) one->on_progress(progress);
-  }
-  void on_worker(const WorkerStatus& status) override {
-    for (CalibrationObserver* one : observers_) one->on_worker(status);
-  }
-  void on_lost(const std::string& worker) override {
-    for (CalibrationObserver* one : observers_) one->on_lost(worker);
-  }
-  void on_tick() override {
-    for (CalibrationObserver* one : observers_) one->on_tick();
-  }
+  void on_run_ends(RunEnd end) override { tell(&CalibrationObserver::on_run_ends, end); }
+  void on_workers_end() override { tell(&CalibrationObserver::on_workers_end); }
+  void on_progress(const Progress& progress) override { tell(&CalibrationObserver::on_progress, progress); }
+  void on_worker(const WorkerStatus& status) override { tell(&CalibrationObserver::on_worker, status); }
+  void on_lost(const std::string& worker) override { tell(&CalibrationObserver::on_lost, worker); }
+  void on_tick() override { tell(&CalibrationObserver::on_tick); }
   void on_learning_begins(const Robot& described) override {
-    for (CalibrationObserver* one : observers_) one->on_learning_begins(described);
+    tell(&CalibrationObserver::on_learning_begins, described);
   }
   void on_round(const Round& round, const Robot& described) override {
-    for (CalibrationObserver* one : observers_) one->on_round(round, described);
+    tell(&CalibrationObserver::on_round, round, described);
   }
-  void on_message(const std::string& text) override {
-    for (CalibrationObserver* one : observers_) one->on_message(text);
-  }
+  void on_message(const std::string& text) override { tell(&CalibrationObserver::on_message, text); }
   void on_structure_generation(int generation, int generations, double left) override {
-    for (CalibrationObserver* one : observers_) one->on_structure_generation(generation, generations, left);
+    tell(&CalibrationObserver::on_structure_generation, generation, generations, left);
   }
 
  private:
+  template <class Observer, class... Parameters>
+  void tell(void (Observer::*event)(Parameters...), const std::type_identity_t<Parameters>&... arguments) {
+    for (CalibrationObserver* one : observers_) (one->*event)(arguments...);
+  }
+
   std::array<CalibrationObserver*, 2> observers_;
 };
 
@@ -218,7 +211,7 @@ ExitCode run_calibrate(CalibrateRequest request) {
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   CalibrateOptions options;
   options.asynchronous = request.asynchronous;
-  options.share_draws = request.share_draws;
+  options.share_work_from_s = request.share_work_from_s;
   options.patience.worker = std::chrono::milliseconds(static_cast<std::int64_t>(1e3 * request.worker_timeout_s));
   const std::unique_ptr<RunJournal> journal = open_journal(request, job, data);
   options.journal = journal.get();
@@ -290,8 +283,11 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
       ->capture_default_str();
   command->add_flag("--asynchronous", request->asynchronous,
                     "islands wait for no neighbour: never idle, but another run gives another result");
-  command->add_flag("--share-draws", request->share_draws,
-                    "workers make the closed loop's random draws too: the same result, perhaps sooner if elsewhere");
+  command
+      ->add_option("--share-work", request->share_work_from_s,
+                   "workers take part in scans, draws and resamplings that would take one core SECONDS or longer: the "
+                   "same result, perhaps sooner if elsewhere")
+      ->check(not_negative());
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);
   command->callback([request, &exit_code] { exit_code = run_calibrate(*request); });

@@ -86,12 +86,12 @@ struct Watched {
 };
 
 static struct Watched watched[] = {
-    {"demecal/10/worker", &demecal_wire_WorkerStatus_desc, print_worker, 0},
-    {"demecal/10/control", &demecal_wire_Control_desc, print_control, 0},
-    {"demecal/10/loop", &demecal_wire_LoopNews_desc, print_loop, 0},
-    {"demecal/10/cause", &demecal_wire_CauseFound_desc, print_cause, 0},
-    {"demecal/10/final_figures", &demecal_wire_FinalFigures_desc, print_final_figures, 0},
-    {"demecal/10/progress", &demecal_wire_PlacedProgress_desc, print_progress, 0},
+    {"demecal/11/worker", &demecal_wire_WorkerStatus_desc, print_worker, 0},
+    {"demecal/11/control", &demecal_wire_Control_desc, print_control, 0},
+    {"demecal/11/loop", &demecal_wire_LoopNews_desc, print_loop, 0},
+    {"demecal/11/cause", &demecal_wire_CauseFound_desc, print_cause, 0},
+    {"demecal/11/final_figures", &demecal_wire_FinalFigures_desc, print_final_figures, 0},
+    {"demecal/11/progress", &demecal_wire_PlacedProgress_desc, print_progress, 0},
     {"rt/demecal/worker", &demecal_msg_dds__WorkerStatus__desc, print_ros2_worker, 0},
     {"rt/demecal/run_state", &demecal_msg_dds__Control__desc, print_ros2_control, 0},
     {"rt/demecal/loop", &demecal_msg_dds__LoopNews__desc, print_ros2_loop, 0},

@@ -19,8 +19,8 @@ std::vector<std::string> calibrate(const SmallJob& job, const std::string& out, 
           "--domain",  private_domain()};
 }
 
-std::vector<std::string> with_shared_draws(std::vector<std::string> arguments) {
-  arguments.emplace_back("--share-draws");
+std::vector<std::string> with_shared_work(std::vector<std::string> arguments) {
+  arguments.insert(arguments.end(), {"--share-work", "0"});
   return arguments;
 }
 
@@ -56,9 +56,9 @@ TEST(Calibrate, GivesTheSameModelForOneAndTwoWorkersAndWorkersStartedBeforeOrAft
   EXPECT_EQ(model, job.text("two/model.yaml"));
   {
     const auto first = worker(), second = worker();
-    const Ended ended = run("demecal", with_shared_draws(calibrate(job, "before", 0)));
+    const Ended ended = run("demecal", with_shared_work(calibrate(job, "before", 0)));
     ASSERT_EQ(ended.code, 0);
-    EXPECT_NE(ended.err.find("batches of the random draws"), std::string::npos) << ended.err;
+    EXPECT_NE(ended.err.find("scans, draws and resamplings"), std::string::npos) << ended.err;
   }
   EXPECT_EQ(model, job.text("before/model.yaml"));
   StartedProgram coordinator("demecal", calibrate(job, "after", 0));
@@ -72,7 +72,7 @@ TEST(Calibrate, SurvivesTheDeathOfAWorkerWithTheSameModel) {
   const SmallJob job(200);
   ASSERT_EQ(run("demecal", calibrate(job, "whole", 2)).code, 0);
   auto victim = worker();
-  StartedProgram coordinator("demecal", with_shared_draws(calibrate(job, "killed", 0)));
+  StartedProgram coordinator("demecal", with_shared_work(calibrate(job, "killed", 0)));
   ASSERT_TRUE(coordinator.wait_for_err("joined"));
   const auto survivor = worker();
   victim->signal(SIGKILL);

@@ -181,7 +181,7 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   // Corrections have two for each joint, explanations four.
   EXPECT_THAT(islands_of_runs, Each(Pair(_, AnyOf(12, 4))));
   EXPECT_THAT(islands_of_runs, Contains(Pair(_, 12)));
-  for (const std::string own : {"demecal/10/", "rt/demecal/"}) {
+  for (const std::string own : {"demecal/11/", "rt/demecal/"}) {
     EXPECT_EQ(last_of_islands(topics[own + "progress"]), last_of_islands(progress)) << own;
     EXPECT_THAT(chosen(topics[own + "worker"], {0, 1, 2, 3}), ContainerEq(workers)) << own;
   }
@@ -196,13 +196,13 @@ TEST_F(OtherDds, ReadsInEveryMonitoringTopicWhatTheMonitorPrints) {
   ASSERT_EQ(figures.size(), 1u);
   EXPECT_EQ(figures.begin()->at(2), std::to_string(causes.size()));
   EXPECT_THAT(causes, Contains(Contains("lost motion of joint 2")));
-  for (const std::string own : {"demecal/10/", "rt/demecal/"}) {
+  for (const std::string own : {"demecal/11/", "rt/demecal/"}) {
     EXPECT_THAT(causes_of(topics[own + "cause"]), ContainerEq(causes)) << own;
     EXPECT_THAT(figures_of(topics[own + "final_figures"]), ContainerEq(figures)) << own;
   }
   // Of these the writer keeps the last value alone: a reader that is slow misses what it replaced.
-  const Lines ends = chosen(topics["demecal/10/loop"], {0, 1, 4}),
-              states = chosen(topics["demecal/10/control"], {0, 1});
+  const Lines ends = chosen(topics["demecal/11/loop"], {0, 1, 4}),
+              states = chosen(topics["demecal/11/control"], {0, 1});
   EXPECT_THAT(ends, IsSubsetOf(loop));
   EXPECT_THAT(loop, Contains(ElementsAre(_, "0", HasSubstr("finished"))));
   for (const auto& line : loop) {
@@ -227,7 +227,7 @@ TEST_F(OtherDds, ChangesNothingOfTheModelWithTwentyReadersOneOfThemStopped) {
         std::make_unique<StartedProgram>("read-topics", std::vector<std::string>{other_domain(2), "300"}));
   for (const auto& reader : readers) ASSERT_TRUE(reader->wait_for_out("reading"));
   StartedProgram coordinator("demecal", calibrate(job, "read", 2));
-  ASSERT_TRUE(readers[0]->wait_for_out("demecal/10/progress"));
+  ASSERT_TRUE(readers[0]->wait_for_out("demecal/11/progress"));
   readers[0]->signal(SIGSTOP);
   EXPECT_EQ(coordinator.wait(std::chrono::seconds(240)).code, 0);
   const std::string alone = job.text("alone/model.yaml");

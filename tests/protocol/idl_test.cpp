@@ -29,9 +29,9 @@ const char* const kStruct<CauseName> = "CauseName";
 template <>
 const char* const kStruct<SetTraining> = "SetTraining";
 template <>
-const char* const kStruct<DrawTable> = "DrawTable";
+const char* const kStruct<WorkTable> = "WorkTable";
 template <>
-const char* const kStruct<DrawInputs> = "DrawInputs";
+const char* const kStruct<WorkInputs> = "WorkInputs";
 template <>
 const char* const kStruct<Migrants> = "Migrants";
 template <>
@@ -138,8 +138,8 @@ TEST(Document, DeclaresTheStructsThatTheListsAreOf) {
       {"Individual", declared<Individual>()},       {"SharedFunction", declared<SharedFunction>()},
       {"GpParameters", declared<GpParameters>()},   {"Archipelago", declared<Archipelago>()},
       {"TrainingTable", declared<TrainingTable>()}, {"CauseName", declared<CauseName>()},
-      {"SetTraining", declared<SetTraining>()},     {"DrawTable", declared<DrawTable>()},
-      {"DrawInputs", declared<DrawInputs>()},       {"CalibrationData", declared<CalibrationData>()},
+      {"SetTraining", declared<SetTraining>()},     {"WorkTable", declared<WorkTable>()},
+      {"WorkInputs", declared<WorkInputs>()},       {"CalibrationData", declared<CalibrationData>()},
       {"Migrants", declared<Migrants>()},           {"IslandState", declared<IslandState>()},
       {"IslandTask", declared<IslandTask>()},       {"PlacedProgress", declared<PlacedProgress>()},
       {"Checkpoint", declared<Checkpoint>()},       {"Outcome", declared<Outcome>()},
@@ -155,7 +155,7 @@ Declarations listed_values() {
 }
 
 TEST(Document, DeclaresTheEnumerationsThatAreListed) {
-  EXPECT_EQ(in_the_document("enum"), (listed_values<ConstantPolicy, Topology, Replacement, Loss, Breeds, DrawKind>()));
+  EXPECT_EQ(in_the_document("enum"), (listed_values<ConstantPolicy, Topology, Replacement, Loss, Breeds, WorkKind>()));
 }
 
 template <class E>

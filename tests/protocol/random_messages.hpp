@@ -67,7 +67,7 @@ class RandomMessages {
     }
     data.breeds = static_cast<Breeds>(random_.index(3));
     data.sets = sets();
-    data.draws = draws();
+    data.work = work();
     return data;
   }
 
@@ -93,14 +93,13 @@ class RandomMessages {
     return sets;
   }
 
-  DrawInputs draws() {
-    DrawInputs draws{
-        random_.chance(0.5) ? DrawKind::gains : DrawKind::agreements, number(), number(), number(), {}, {}};
-    draws.lists.resize(random_.index(4));
-    for (auto& list : draws.lists) list = places();
-    draws.tables.resize(random_.index(4));
-    for (DrawTable& table : draws.tables) table = {number(), column()};
-    return draws;
+  WorkInputs work() {
+    WorkInputs work{static_cast<WorkKind>(random_.index(4)), places(), number(), {}, {}};
+    work.lists.resize(random_.index(4));
+    for (auto& list : work.lists) list = places();
+    work.tables.resize(random_.index(4));
+    for (WorkTable& table : work.tables) table = {number(), column()};
+    return work;
   }
 
   IslandTask task() { return {number(), island(), number(), text(), state(), recent()}; }

@@ -158,7 +158,7 @@ TEST(RunJournal, RefusesAnotherJobAndSaysWhatDiffers) {
 }
 
 TEST(RunJournal, OfAnotherFileOrNoneBeginsAtTheStart) {
-  for (const std::string before : {"", "demecal journal 4\n", "demecal jou", "something else\n"}) {
+  for (const std::string before : {"", "demecal journal 5\n", "demecal jou", "something else\n"}) {
     const TemporaryFolder folder;
     folder.write("run.journal", before);
     const RunJournal journal(folder.path().string(), kIdentity, Start::resume);

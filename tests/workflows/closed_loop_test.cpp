@@ -35,8 +35,9 @@ TEST(ClosedLoop, GivesTheSameModelWhateverTheWorkers) {
   job.closed_loop.candidates = {"backlash", "coupling"};
   const CalibrateResult one = calibrate_in_memory(data, job, 1);
   EXPECT_FALSE(one.model.robot.effects.empty());
-  for (const bool share_draws : {false, true})
-    EXPECT_EQ(model_text(one.model), model_text(calibrate_in_memory(data, job, 3, share_draws).model)) << share_draws;
+  for (const std::optional<double> share_work_from_s : {std::optional<double>{}, {0.0}})
+    EXPECT_EQ(model_text(one.model), model_text(calibrate_in_memory(data, job, 3, share_work_from_s).model))
+        << share_work_from_s.has_value();
 }
 
 TEST(ClosedLoop, DoesNotRunWhereNoEffectIsAllowed) {

@@ -37,10 +37,10 @@ inline bool is_backlash_of_joint_2(const Effect& effect) {
 
 /// The whole calibration of `data`, without files and processes.
 inline CalibrateResult calibrate_in_memory(const DataSet& data, const Job& job, int workers = 2,
-                                           bool share_draws = false) {
+                                           std::optional<double> share_work_from_s = {}) {
   const std::atomic<bool> interrupt{false};
   CalibrateOptions options;
-  options.share_draws = share_draws;
+  options.share_work_from_s = share_work_from_s;
   return calibrate(
       data, job, [workers] { return std::make_unique<InMemoryWorkerPool>(workers); }, interrupt, options);
 }

@@ -80,7 +80,7 @@ function drawHead(calibration, run) {
 }
 
 /// Explanations are bred on islands of their own.
-const nameOf = (run, joint) => ({ sets: 'explanations', draws: 'draws of noise' })[run?.data?.breeds] ?? `joint ${joint}`;
+const nameOf = (run, joint) => ({ sets: 'explanations', work: 'scans and draws' })[run?.data?.breeds] ?? `joint ${joint}`;
 
 function drawError(run) {
   const joints = run?.data?.joints ?? [...(run?.curves.keys() ?? [])].sort((a, b) => a - b);

@@ -1,4 +1,4 @@
-// Draws are the same to the bit wherever their numbers are, and received numbers that are of no draws are refused.
+// Work is the same to the bit wherever its numbers are, and received numbers that are of no work are refused.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,42 +7,45 @@
 #include <limits>
 #include <vector>
 
-#include "draws/draw_work.hpp"
 #include "random/random_stream.hpp"
 #include "random_works.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal {
 namespace {
 
-std::vector<DrawInputs> inputs_of_all_kinds(std::uint64_t seed) {
+std::vector<WorkInputs> inputs_of_all_kinds(std::uint64_t seed) {
   RandomWorks works(seed);
-  return {works.agreements(false).inputs(), works.agreements(true).inputs(), works.gains()->work->inputs()};
+  return {works.agreements(false).inputs(), works.agreements(true).inputs(), works.gains()->work->inputs(),
+          works.resamplings().inputs(), works.products()->work->inputs()};
 }
 
-void expect_same_elsewhere(const DrawWork& work) {
-  const DrawInputs inputs = work.inputs();
+void expect_same_elsewhere(const SharedWork& work) {
+  const WorkInputs inputs = work.inputs();
   ASSERT_EQ(find_fault(inputs), std::nullopt);
-  const std::unique_ptr<DrawWork> elsewhere = draw_work(inputs);
+  const std::unique_ptr<SharedWork> elsewhere = shared_work(inputs);
   EXPECT_EQ(elsewhere->inputs(), inputs);
   ASSERT_EQ(elsewhere->pieces(), work.pieces());
-  ASSERT_EQ(inputs.pieces(), work.pieces());
-  EXPECT_EQ(make_draws(*elsewhere), make_draws(work));
+  ASSERT_EQ(inputs.numbers_of_pieces.size(), work.pieces());
+  EXPECT_EQ(do_work(*elsewhere), do_work(work));
   for (std::size_t piece = work.pieces(); piece-- > 0;) {
     EXPECT_EQ(elsewhere->piece(piece), work.piece(piece)) << piece;
-    EXPECT_EQ(work.piece(piece).size(), inputs.numbers_of_piece(piece));
+    EXPECT_EQ(work.piece(piece).size(), inputs.numbers_of_pieces[piece]);
   }
 }
 
-TEST(Draws, AreTheSameWhereverTheirNumbersAre) {
+TEST(SharedWork, IsTheSameWhereverItsNumbersAre) {
   for (std::uint64_t seed = 0; seed < 5; ++seed) {
     RandomWorks works(seed);
     expect_same_elsewhere(works.agreements(false));
     expect_same_elsewhere(works.agreements(true));
     expect_same_elsewhere(*works.gains()->work);
+    expect_same_elsewhere(works.resamplings());
+    expect_same_elsewhere(*works.products()->work);
   }
 }
 
-TEST(Draws, OfAPieceDependOnNoOther) {
+TEST(SharedWork, OfAPieceDependsOnNoOther) {
   RandomWorks few(7), many(7);
   const AgreementDraws one = few.agreements(true, 32), three = many.agreements(true, 96);
   ASSERT_EQ(one.pieces(), 1U);
@@ -51,26 +54,26 @@ TEST(Draws, OfAPieceDependOnNoOther) {
   EXPECT_NE(three.piece(0), three.piece(1));
 }
 
-TEST(Draws, ThatLackAListOrATableAreRefused) {
-  for (const DrawInputs& whole : inputs_of_all_kinds(1)) {
+TEST(SharedWork, ThatLacksAListOrATableIsRefused) {
+  for (const WorkInputs& whole : inputs_of_all_kinds(1)) {
     for (std::size_t missing = 0; missing < whole.lists.size(); ++missing) {
-      DrawInputs inputs = whole;
+      WorkInputs inputs = whole;
       inputs.lists.erase(inputs.lists.begin() + static_cast<std::ptrdiff_t>(missing));
       EXPECT_NE(find_fault(inputs), std::nullopt) << missing;
     }
     for (std::size_t missing = 0; missing < whole.tables.size(); ++missing) {
-      DrawInputs inputs = whole;
+      WorkInputs inputs = whole;
       inputs.tables.erase(inputs.tables.begin() + static_cast<std::ptrdiff_t>(missing));
       EXPECT_NE(find_fault(inputs), std::nullopt) << missing;
     }
   }
 }
 
-TEST(Draws, OfNumbersThatAreNotFiniteAreRefused) {
+TEST(SharedWork, OfNumbersThatAreNotFiniteIsRefused) {
   for (const double bad : {std::nan(""), std::numeric_limits<double>::infinity()}) {
-    for (const DrawInputs& whole : inputs_of_all_kinds(2)) {
+    for (const WorkInputs& whole : inputs_of_all_kinds(2)) {
       for (std::size_t table = 0; table < whole.tables.size(); ++table) {
-        DrawInputs inputs = whole;
+        WorkInputs inputs = whole;
         if (inputs.tables[table].numbers.empty()) continue;
         inputs.tables[table].numbers.back() = bad;
         EXPECT_NE(find_fault(inputs), std::nullopt) << table;
@@ -79,18 +82,18 @@ TEST(Draws, OfNumbersThatAreNotFiniteAreRefused) {
   }
 }
 
-TEST(Draws, ThatWouldClaimMoreMemoryThanTheirNumbersAreRefused) {
+TEST(SharedWork, ThatWouldClaimMoreMemoryThanItsNumbersIsRefused) {
   constexpr std::size_t kBasis = 2, kPriorBasis = 3, kFifth = 4;
-  DrawInputs agreements = RandomWorks(5).agreements(false).inputs();
+  WorkInputs agreements = RandomWorks(5).agreements(false).inputs();
   agreements.tables[kFifth] = {5, {}};  // a root without columns, and so of no size
   EXPECT_NE(find_fault(agreements), std::nullopt);
   agreements = RandomWorks(5).agreements(false).inputs();
-  ++agreements.numbers_of_draw;
+  ++agreements.numbers_of_pieces.back();
   EXPECT_NE(find_fault(agreements), std::nullopt);
   agreements = RandomWorks(5).agreements(false).inputs();
-  agreements.lists.front() = {0, 2'000'000};
+  agreements.lists[1] = {0, 2'000'000};
   EXPECT_NE(find_fault(agreements), std::nullopt);
-  DrawInputs gains = RandomWorks(6).gains()->work->inputs();
+  WorkInputs gains = RandomWorks(6).gains()->work->inputs();
   gains.tables[kBasis].numbers.clear();
   gains.tables[kPriorBasis].numbers.clear();
   gains.tables[kFifth] = {4'000'000'000, {}};  // columns along a basis that there is not
@@ -98,14 +101,18 @@ TEST(Draws, ThatWouldClaimMoreMemoryThanTheirNumbersAreRefused) {
   gains = RandomWorks(6).gains()->work->inputs();
   gains.lists.resize(gains.lists.size() + 1'000'000);  // blocks without their tables
   EXPECT_NE(find_fault(gains), std::nullopt);
+  WorkInputs resamplings = RandomWorks(7).resamplings(1'000).inputs();
+  resamplings.lists.front() = {1'000, 1'000};  // in one piece
+  resamplings.numbers_of_pieces = {6'000};
+  EXPECT_NE(find_fault(resamplings), std::nullopt);
 }
 
-/// Whatever was changed on the way, they are refused or can be made.
-TEST(Draws, OfAnyNumbersAreRefusedOrMade) {
+/// Whatever was changed on the way, it is refused or can be done.
+TEST(SharedWork, OfAnyNumbersIsRefusedOrDone) {
   RandomStream random{98};
   int refused = 0, made = 0;
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
-    for (DrawInputs inputs : inputs_of_all_kinds(seed)) {
+    for (WorkInputs inputs : inputs_of_all_kinds(seed)) {
       const std::size_t list = random.index(inputs.lists.size()), table = random.index(inputs.tables.size());
       switch (random.index(6)) {
         case 0:
@@ -122,7 +129,8 @@ TEST(Draws, OfAnyNumbersAreRefusedOrMade) {
           inputs.tables[table].numbers.resize(random.index(50), 1.0);
           break;
         case 4:
-          inputs.draws = static_cast<std::uint32_t>(random.index(40));
+          inputs.numbers_of_pieces[random.index(inputs.numbers_of_pieces.size())] =
+              static_cast<std::uint32_t>(random.index(2000));
           break;
         default:
           for (double& number : inputs.tables[table].numbers) number = random.real(-2.0, 2.0);
@@ -131,9 +139,9 @@ TEST(Draws, OfAnyNumbersAreRefusedOrMade) {
         ++refused;
         continue;
       }
-      const std::unique_ptr<DrawWork> work = draw_work(inputs);
+      const std::unique_ptr<SharedWork> work = shared_work(inputs);
       for (std::size_t piece = 0; piece < work->pieces(); ++piece)
-        EXPECT_EQ(work->piece(piece).size(), inputs.numbers_of_piece(piece));
+        EXPECT_EQ(work->piece(piece).size(), inputs.numbers_of_pieces[piece]);
       ++made;
     }
   }

@@ -1,15 +1,14 @@
-#include "draws/agreement_draws.hpp"
+#include "shared_work/agreement_draws.hpp"
 
 #include <algorithm>
 #include <utility>
 
 #include "random/random_stream.hpp"
 
-namespace demecal::inline draws {
-
+namespace demecal::inline shared_work {
 AgreementDraws::AgreementDraws(NullResiduals residuals, RowMatrix joint_columns, RowMatrix lengths,
-                               std::vector<Pairs> circumstances, std::uint32_t draws, std::uint64_t stream)
-    : DrawWork(draws, stream),
+                               std::vector<Pairs> circumstances, const DrawCount& count)
+    : RandomDraws(count),
       residuals_(std::move(residuals)),
       joint_columns_(std::move(joint_columns)),
       lengths_(std::move(lengths)),
@@ -54,7 +53,7 @@ Eigen::MatrixXd AgreementDraws::agreements(const Eigen::MatrixXd& residuals) con
 }
 
 std::vector<double> AgreementDraws::piece(std::size_t number) const {
-  RandomStream random{stream(), number};
+  RandomStream random = random_of_piece(number);
   const Eigen::MatrixXd drawn = agreements(residuals_.draw(static_cast<Eigen::Index>(draws_of_piece(number)), random));
   return {drawn.data(), drawn.data() + drawn.size()};
 }
@@ -63,8 +62,8 @@ std::uint32_t AgreementDraws::numbers_of_draw() const {
   return static_cast<std::uint32_t>(static_cast<std::size_t>(lengths_.cols()) * circumstances_.size());
 }
 
-DrawInputs AgreementDraws::inputs() const {
-  DrawInputs inputs{DrawKind::agreements, draws(), numbers_of_draw(), stream(), {}, {}};
+WorkInputs AgreementDraws::inputs() const {
+  WorkInputs inputs = counted_inputs(WorkKind::agreements);
   append(residuals_.noise, inputs);
   inputs.lists.push_back(list_of(residuals_.poses));
   for (const Pairs& pairs : circumstances_) {
@@ -81,35 +80,37 @@ DrawInputs AgreementDraws::inputs() const {
   return inputs;
 }
 
-std::unique_ptr<DrawWork> AgreementDraws::read(const DrawInputs& inputs, DrawReader& reader) {
+std::unique_ptr<SharedWork> AgreementDraws::read(WorkReader& reader) {
+  const DrawCount count = read_draw_count(reader);
   NullResiduals residuals{read_noise(reader), {}, {}, {}, {}, 0.0};
   const auto& poses = reader.ascending(residuals.noise.poses());
   residuals.poses.assign(poses.begin(), poses.end());
   std::vector<Pairs> circumstances;
   while (reader.lists_left() > 0) {
     const auto& places = reader.list(poses.size());
-    DrawReader::require(places.size() % 2 == 0, "an odd number of pose indices");
+    WorkReader::require(places.size() % 2 == 0, "an odd number of pose indices");
     Pairs& pairs = circumstances.emplace_back();
     for (std::size_t i = 0; i < places.size(); i += 2) pairs.push_back({places[i], places[i + 1]});
   }
   const auto rows = static_cast<Eigen::Index>(residuals.rows().size());
   const Eigen::Index basis_rows = reader.rows_of_next_table();
-  DrawReader::require(basis_rows == rows || basis_rows == residuals.noise.rows(), "a basis of the wrong height");
+  WorkReader::require(basis_rows == rows || basis_rows == residuals.noise.rows(), "a basis of the wrong height");
   residuals.basis = reader.table(basis_rows);
   const Eigen::Index rank = residuals.basis.cols();
   residuals.prior_basis = reader.table(residuals.noise.belief_deviations.size(), rank);
   const bool of_all = reader.rows_of_next_table() == 0;
   residuals.others_root = of_all ? reader.table(0, 0) : reader.table(rank);
   const Eigen::Index others = residuals.others_root.cols();
-  DrawReader::require(of_all || (others > 0 && others <= rank), "a root of the wrong width");
-  DrawReader::require(basis_rows == (of_all ? residuals.noise.rows() : rows), "a basis of the wrong height");
+  WorkReader::require(of_all || (others > 0 && others <= rank), "a root of the wrong width");
+  WorkReader::require(basis_rows == (of_all ? residuals.noise.rows() : rows), "a basis of the wrong height");
   residuals.model_squares = reader.table(1, 1)(0, 0);
   RowMatrix joint_columns = reader.table(rows);
   RowMatrix lengths = reader.table(static_cast<Eigen::Index>(poses.size()), joint_columns.cols());
-  DrawReader::require(static_cast<std::size_t>(lengths.cols()) * circumstances.size() == inputs.numbers_of_draw,
-                      "numbers_of_draw is not what the tables give");
+  constexpr std::size_t kMostNumbersOfDraw = 100'000;
+  WorkReader::require(static_cast<std::size_t>(lengths.cols()) * circumstances.size() <= kMostNumbersOfDraw,
+                      "too many numbers of a draw");
   return std::make_unique<AgreementDraws>(std::move(residuals), std::move(joint_columns), std::move(lengths),
-                                          std::move(circumstances), inputs.draws, inputs.stream);
+                                          std::move(circumstances), count);
 }
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work

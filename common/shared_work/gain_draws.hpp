@@ -7,12 +7,12 @@
 #include <memory>
 #include <vector>
 
-#include "draws/draw_tables.hpp"
-#include "draws/draw_work.hpp"
-#include "draws/feature_blocks.hpp"
-#include "draws/null_noise.hpp"
+#include "shared_work/feature_blocks.hpp"
+#include "shared_work/null_noise.hpp"
+#include "shared_work/random_draws.hpp"
+#include "shared_work/work_tables.hpp"
 
-namespace demecal::inline draws {
+namespace demecal::inline shared_work {
 
 /// How the description's length falls by what columns explain (nats).
 struct GainPrices {
@@ -32,7 +32,7 @@ struct GainCandidate {
 };
 
 /// In single precision, which is enough for a null distribution and twice as fast.
-class GainDraws final : public DrawWork {
+class GainDraws final : public RandomDraws {
  public:
   /// `basis`, `prior_basis` and `along`: of the model, over rows, beliefs and all candidates' columns.
   struct Parts {
@@ -43,14 +43,13 @@ class GainDraws final : public DrawWork {
     GainPrices prices;
   };
   /// Keeps blocks and motions by reference.
-  GainDraws(Parts parts, const std::vector<FeatureBlock>& blocks, const RowMatrix& motions, std::uint32_t draws,
-            std::uint64_t stream);
-  static std::unique_ptr<DrawWork> read(const DrawInputs& inputs, DrawReader& reader);
+  GainDraws(Parts parts, const std::vector<FeatureBlock>& blocks, const RowMatrix& motions, const DrawCount& count);
+  static std::unique_ptr<SharedWork> read(WorkReader& reader);
 
   /// The largest gain of any candidate, nats.
   std::vector<double> piece(std::size_t number) const override;
   std::uint32_t numbers_of_draw() const override { return 1; }
-  DrawInputs inputs() const override;
+  WorkInputs inputs() const override;
 
  private:
   double best_gain(const Eigen::VectorXd& moments, double squares) const;
@@ -60,4 +59,4 @@ class GainDraws final : public DrawWork {
   const RowMatrix& motions_;
 };
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work

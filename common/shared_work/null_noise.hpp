@@ -9,7 +9,7 @@
 #include "products/tall_products.hpp"
 #include "random/random_stream.hpp"
 
-namespace demecal::inline draws {
+namespace demecal::inline shared_work {
 
 /// Rows as if nothing but the noise had been measured. The whitened residual of a pose keeps its length, which goes to
 /// any pose with as many rows, and takes any direction (a rotation test by poses, after Langsrud, 2005, that keeps
@@ -57,4 +57,4 @@ struct NullResiduals {
   Eigen::MatrixXd draw_all(Eigen::Index count, RandomStream& random) const;
 };
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work

@@ -1,4 +1,4 @@
-#include "draws/gain_draws.hpp"
+#include "shared_work/gain_draws.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,28 +7,22 @@
 
 #include "random/random_stream.hpp"
 
-namespace demecal::inline draws {
+namespace demecal::inline shared_work {
 namespace {
 
-constexpr std::size_t kMostDrawnColumns = 100'000;
-
 /// Of numbers that came from elsewhere: the same with what it refers to.
-class ReceivedGainDraws final : public DrawWork {
+class ReceivedGainDraws final : public SharedWork {
  public:
-  ReceivedGainDraws(GainDraws::Parts parts, std::vector<FeatureBlock> blocks, RowMatrix motions,
-                    const DrawInputs& inputs)
-      : DrawWork(inputs.draws, inputs.stream),
-        blocks_(std::move(blocks)),
-        motions_(std::move(motions)),
-        work_(std::move(parts), blocks_, motions_, inputs.draws, inputs.stream) {}
+  ReceivedGainDraws(GainDraws::Parts parts, ReceivedBlocks received, const DrawCount& count)
+      : received_(std::move(received)), work_(std::move(parts), received_.blocks, received_.motions, count) {}
 
+  std::size_t pieces() const override { return work_.pieces(); }
+  std::uint32_t numbers_of_piece(std::size_t number) const override { return work_.numbers_of_piece(number); }
   std::vector<double> piece(std::size_t number) const override { return work_.piece(number); }
-  std::uint32_t numbers_of_draw() const override { return work_.numbers_of_draw(); }
-  DrawInputs inputs() const override { return work_.inputs(); }
+  WorkInputs inputs() const override { return work_.inputs(); }
 
  private:
-  std::vector<FeatureBlock> blocks_;
-  RowMatrix motions_;
+  ReceivedBlocks received_;
   GainDraws work_;
 };
 
@@ -41,11 +35,11 @@ double GainPrices::gain_nats(double drop, double squares, Eigen::Index rank, dou
 }
 
 GainDraws::GainDraws(Parts parts, const std::vector<FeatureBlock>& blocks, const RowMatrix& motions,
-                     std::uint32_t draws, std::uint64_t stream)
-    : DrawWork(draws, stream), parts_(std::move(parts)), blocks_(blocks), motions_(motions) {}
+                     const DrawCount& count)
+    : RandomDraws(count), parts_(std::move(parts)), blocks_(blocks), motions_(motions) {}
 
 std::vector<double> GainDraws::piece(std::size_t number) const {
-  RandomStream random{stream(), number};
+  RandomStream random = random_of_piece(number);
   const NullNoise::Draws draws = parts_.noise.draw(static_cast<Eigen::Index>(draws_of_piece(number)), random);
   const RowMatrixF rows = draws.fitted.cast<float>(), beliefs = draws.beliefs.cast<float>();
   const Eigen::MatrixXf explained = parts_.basis.transpose() * rows + parts_.prior_basis.transpose() * beliefs;
@@ -75,11 +69,11 @@ double GainDraws::best_gain(const Eigen::VectorXd& moments, double squares) cons
 }
 
 /// Of motions the columns that blocks are of.
-DrawInputs GainDraws::inputs() const {
-  DrawInputs inputs{DrawKind::gains, draws(), numbers_of_draw(), stream(), {}, {}};
+WorkInputs GainDraws::inputs() const {
+  WorkInputs inputs = counted_inputs(WorkKind::gains);
   append(parts_.noise, inputs);
   std::vector<std::uint32_t> firsts, widths, ranks;
-  DrawTable costs{static_cast<std::uint32_t>(parts_.candidates.size()), {}};
+  WorkTable costs{static_cast<std::uint32_t>(parts_.candidates.size()), {}};
   for (const GainCandidate& one : parts_.candidates) {
     firsts.push_back(static_cast<std::uint32_t>(one.first));
     widths.push_back(static_cast<std::uint32_t>(one.inverse.rows()));
@@ -93,47 +87,32 @@ DrawInputs GainDraws::inputs() const {
   inputs.tables.push_back(costs);
   inputs.tables.push_back({2, {parts_.prices.rows, parts_.prices.poses}});
   for (const GainCandidate& one : parts_.candidates) inputs.tables.push_back(table_of(one.inverse));
-  for (const FeatureBlock& block : blocks_) {
-    inputs.lists.push_back(list_of(block.columns));
-    inputs.tables.push_back(table_of(motions_.col(block.motion)));
-    inputs.tables.push_back(table_of(block.features));
-  }
+  append(blocks_, motions_, inputs);
   return inputs;
 }
 
-std::unique_ptr<DrawWork> GainDraws::read(const DrawInputs& inputs, DrawReader& reader) {
+std::unique_ptr<SharedWork> GainDraws::read(WorkReader& reader) {
+  const DrawCount count = read_draw_count(reader);
   Parts parts{read_noise(reader), {}, {}, {}, {}, {}};
-  const Eigen::Index rows = parts.noise.rows(), poses = static_cast<Eigen::Index>(parts.noise.poses());
-  const auto& firsts = reader.list(kMostDrawnColumns);
-  const auto& widths = reader.list(kMostDrawnColumns, firsts.size());
-  const auto& ranks = reader.list(kMostDrawnColumns, firsts.size());
+  const Eigen::Index rows = parts.noise.rows();
+  const auto& firsts = reader.list(kMostColumnsOfWork);
+  const auto& widths = reader.list(kMostColumnsOfWork, firsts.size());
+  const auto& ranks = reader.list(kMostColumnsOfWork, firsts.size());
   parts.basis = reader.table(rows).cast<float>();
   parts.prior_basis = reader.table(parts.noise.belief_deviations.size(), parts.basis.cols()).cast<float>();
   const Eigen::Index columns = reader.rows_of_next_table();
-  DrawReader::require(columns <= static_cast<Eigen::Index>(kMostDrawnColumns), "too many columns");
+  WorkReader::require(columns <= static_cast<Eigen::Index>(kMostColumnsOfWork), "too many columns");
   parts.along = reader.table(columns, parts.basis.cols()).cast<float>();
   const Eigen::MatrixXd costs = reader.table(static_cast<Eigen::Index>(firsts.size()), 1), prices = reader.table(2, 1);
   parts.prices = {prices(0, 0), prices(1, 0)};
   for (std::size_t i = 0; i < firsts.size(); ++i) {
     const auto first = static_cast<Eigen::Index>(firsts[i]), width = static_cast<Eigen::Index>(widths[i]);
-    DrawReader::require(first + width <= columns, "a candidate whose columns exceed the matrix");
+    WorkReader::require(first + width <= columns, "a candidate whose columns exceed the matrix");
     parts.candidates.push_back({first, static_cast<Eigen::Index>(ranks[i]), costs(static_cast<Eigen::Index>(i), 0),
                                 reader.table(width, width)});
   }
-  // Before memory is claimed for motions: each block has a list and two tables, of which one is as long as the rows.
-  constexpr std::size_t kMostMotions = 8'000'000;
-  DrawReader::require(reader.tables_left() == 2 * reader.lists_left() &&
-                          reader.lists_left() <= kMostMotions / static_cast<std::size_t>(rows),
-                      "blocks without their tables, or too many");
-  std::vector<FeatureBlock> blocks;
-  RowMatrix motions(rows, static_cast<Eigen::Index>(reader.lists_left()));
-  while (reader.lists_left() > 0) {
-    const auto& own = reader.ascending(static_cast<std::size_t>(columns));
-    const auto number = static_cast<Eigen::Index>(blocks.size());
-    motions.col(number) = reader.table(rows, 1);
-    blocks.push_back({number, {own.begin(), own.end()}, reader.table(poses, static_cast<Eigen::Index>(own.size()))});
-  }
-  return std::make_unique<ReceivedGainDraws>(std::move(parts), std::move(blocks), std::move(motions), inputs);
+  ReceivedBlocks received = read_blocks(reader, static_cast<std::size_t>(columns), parts.noise.first_row);
+  return std::make_unique<ReceivedGainDraws>(std::move(parts), std::move(received), count);
 }
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work

@@ -1,21 +1,21 @@
-// A piece of draws as islands are hosted: nothing is bred, and nobody exchanges anything.
+// A piece of work as islands are hosted: nothing is bred, and nobody exchanges anything.
 #pragma once
 
 #include <cstdint>
 #include <functional>
 
-#include "draws/draw_work.hpp"
 #include "evolution/archipelago.hpp"
 #include "evolution/island.hpp"
 #include "evolution/population.hpp"
+#include "shared_work/shared_work.hpp"
 
 namespace demecal::inline hosting {
 
 /// Its first epoch, in which others found populations, does nothing; the second and last makes the piece.
-class DrawIsland {
+class PieceIsland {
  public:
   /// Keeps the work by reference.
-  DrawIsland(const DrawWork& work, IslandKey key) : work_(work), key_(key) {}
+  PieceIsland(const SharedWork& work, IslandKey key) : work_(work), key_(key) {}
 
   IslandKey key() const { return key_; }
   bool finished() const { return state_.epoch >= kEpochs; }
@@ -33,7 +33,7 @@ class DrawIsland {
  private:
   static constexpr std::uint32_t kEpochs = 2;
 
-  const DrawWork& work_;
+  const SharedWork& work_;
   IslandKey key_;
   IslandState state_;
 };

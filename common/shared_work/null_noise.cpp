@@ -1,11 +1,11 @@
-#include "draws/null_noise.hpp"
+#include "shared_work/null_noise.hpp"
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-namespace demecal::inline draws {
+namespace demecal::inline shared_work {
 
 double NullNoise::squares() const {
   double squares = 0.0;
@@ -115,4 +115,4 @@ Eigen::MatrixXd NullResiduals::draw(Eigen::Index count, RandomStream& random) co
   return left;
 }
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work

@@ -1,42 +1,42 @@
-#include "draws/draw_tables.hpp"
+#include "shared_work/work_tables.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 
-namespace demecal::inline draws {
+namespace demecal::inline shared_work {
 namespace {
 
-constexpr std::size_t kMostDrawnRows = 1'000'000;  ///< measured numbers: memory is claimed by them
+constexpr std::size_t kMostRowsOfWork = 1'000'000;  ///< measured numbers: memory is claimed by them
 
 }  // namespace
 
-const std::vector<std::uint32_t>& DrawReader::list(std::size_t limit) {
+const std::vector<std::uint32_t>& WorkReader::list(std::size_t limit) {
   require(next_list_ < inputs_.lists.size(), "a list is missing");
   const std::vector<std::uint32_t>& list = inputs_.lists[next_list_++];
   require(std::ranges::all_of(list, [&](std::uint32_t place) { return place < limit; }), "an index out of range");
   return list;
 }
 
-const std::vector<std::uint32_t>& DrawReader::list(std::size_t limit, std::size_t count) {
+const std::vector<std::uint32_t>& WorkReader::list(std::size_t limit, std::size_t count) {
   const std::vector<std::uint32_t>& own = list(limit);
   require(own.size() == count, "a list of another length");
   return own;
 }
 
-const std::vector<std::uint32_t>& DrawReader::ascending(std::size_t limit) {
+const std::vector<std::uint32_t>& WorkReader::ascending(std::size_t limit) {
   const std::vector<std::uint32_t>& own = list(limit);
   require(std::ranges::adjacent_find(own, std::greater_equal{}) == own.end(), "a list that is not ascending");
   return own;
 }
 
-Eigen::Index DrawReader::rows_of_next_table() const {
+Eigen::Index WorkReader::rows_of_next_table() const {
   require(next_table_ < inputs_.tables.size(), "a table is missing");
   return static_cast<Eigen::Index>(inputs_.tables[next_table_].rows);
 }
 
-Eigen::MatrixXd DrawReader::table(Eigen::Index rows) {
+Eigen::MatrixXd WorkReader::table(Eigen::Index rows) {
   require(rows_of_next_table() == rows, "a table of another height");
   const std::vector<double>& numbers = inputs_.tables[next_table_++].numbers;
   require(std::ranges::all_of(numbers, [](double number) { return std::isfinite(number); }), "a number is not finite");
@@ -45,14 +45,26 @@ Eigen::MatrixXd DrawReader::table(Eigen::Index rows) {
   return Eigen::Map<const Eigen::MatrixXd>(numbers.data(), rows, rows == 0 ? 0 : size / rows);
 }
 
-Eigen::MatrixXd DrawReader::table(Eigen::Index rows, Eigen::Index columns) {
+Eigen::MatrixXd WorkReader::table(Eigen::Index rows, Eigen::Index columns) {
   Eigen::MatrixXd own = table(rows);
   if (rows == 0) return Eigen::MatrixXd(0, columns);
   require(own.cols() == columns, "a table of another width");
   return own;
 }
 
-void append(const NullNoise& noise, DrawInputs& inputs) {
+void WorkReader::require_pieces_of(const SharedWork& work) const {
+  require(work.pieces() == inputs_.numbers_of_pieces.size(), "pieces too many or too few");
+  for (std::size_t i = 0; i < work.pieces(); ++i)
+    require(work.numbers_of_piece(i) == inputs_.numbers_of_pieces[i], "a piece gives another count of numbers");
+}
+
+std::vector<Eigen::Index> read_first_row(WorkReader& reader) {
+  const auto& first_row = reader.ascending(kMostRowsOfWork);
+  WorkReader::require(first_row.size() > 1 && first_row.front() == 0, "no poses");
+  return {first_row.begin(), first_row.end()};
+}
+
+void append(const NullNoise& noise, WorkInputs& inputs) {
   std::vector<double> lengths;
   for (const auto& [count, own] : noise.lengths) lengths.insert(lengths.end(), own.begin(), own.end());
   inputs.lists.push_back(list_of(noise.first_row));
@@ -62,19 +74,15 @@ void append(const NullNoise& noise, DrawInputs& inputs) {
   inputs.tables.push_back(table_of(noise.belief_deviations));
 }
 
-NullNoise read_noise(DrawReader& reader) {
-  constexpr Eigen::Index kMostRowsOfPose = 1'000'000;
+NullNoise read_noise(WorkReader& reader) {
   NullNoise noise;
-  const auto& first_row = reader.ascending(kMostDrawnRows);
-  DrawReader::require(first_row.size() > 1 && first_row.front() == 0, "no poses");
-  noise.first_row.assign(first_row.begin(), first_row.end());
-  const auto& silent = reader.list(2, first_row.size() - 1);
+  noise.first_row = read_first_row(reader);
+  const auto& silent = reader.list(2, noise.first_row.size() - 1);
   noise.silent.assign(silent.begin(), silent.end());
   const auto& believed = reader.list(2);
   noise.believed.assign(believed.begin(), believed.end());
   std::map<Eigen::Index, std::size_t> weighted;  // poses that have weight, by their number of rows
   for (std::size_t pose = 0; pose < noise.poses(); ++pose) {
-    DrawReader::require(noise.rows_of_pose(pose) <= kMostRowsOfPose, "a pose of too many rows");
     if (!noise.silent[pose]) ++weighted[noise.rows_of_pose(pose)];
   }
   std::size_t all = 0;
@@ -89,4 +97,4 @@ NullNoise read_noise(DrawReader& reader) {
   return noise;
 }
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work

@@ -9,24 +9,22 @@
 #include <memory>
 #include <vector>
 
-#include "draws/draw_tables.hpp"
-#include "draws/draw_work.hpp"
-#include "draws/null_noise.hpp"
 #include "products/tall_products.hpp"
+#include "shared_work/null_noise.hpp"
+#include "shared_work/random_draws.hpp"
+#include "shared_work/work_tables.hpp"
 
-namespace demecal::inline draws {
+namespace demecal::inline shared_work {
 
 /// Pairs of poses that are neighbours in some circumstance.
 using Pairs = std::vector<std::array<std::size_t, 2>>;
 
-class AgreementDraws final : public DrawWork {
+class AgreementDraws final : public RandomDraws {
  public:
   /// `joint_columns`: what a radian (or metre) of each joint does to the rows of the residuals' poses, one pose after
   /// another; `lengths`: of these columns, pose by pose (poses x joints). `circumstances`: pairs of places among the
   /// residuals' poses.
-  AgreementDraws(NullResiduals residuals, RowMatrix joint_columns, RowMatrix lengths, std::vector<Pairs> circumstances,
-                 std::uint32_t draws, std::uint64_t stream);
-  static std::unique_ptr<DrawWork> read(const DrawInputs& inputs, DrawReader& reader);
+  static std::unique_ptr<SharedWork> read(WorkReader& reader);
 
   /// Every pose's residual is taken as an error of each joint; a joint's errors as a column of unit length. For each
   /// joint in each circumstance, the sum over its pairs of the products of their errors. `residuals`: a column each,
@@ -35,7 +33,7 @@ class AgreementDraws final : public DrawWork {
 
   std::vector<double> piece(std::size_t number) const override;
   std::uint32_t numbers_of_draw() const override;
-  DrawInputs inputs() const override;
+  WorkInputs inputs() const override;
 
  private:
   RowMatrix errors(const Eigen::MatrixXd& residuals) const;
@@ -45,4 +43,4 @@ class AgreementDraws final : public DrawWork {
   std::vector<Pairs> circumstances_;
 };
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work

@@ -1,4 +1,4 @@
-// Draws of either kind from random numbers.
+// Work of every kind from random numbers.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,10 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include "draws/agreement_draws.hpp"
-#include "draws/gain_draws.hpp"
-#include "draws/null_noise.hpp"
 #include "random/random_stream.hpp"
+#include "shared_work/agreement_draws.hpp"
+#include "shared_work/candidate_products.hpp"
+#include "shared_work/gain_draws.hpp"
+#include "shared_work/null_noise.hpp"
+#include "shared_work/resamplings.hpp"
 
 namespace demecal {
 
@@ -48,14 +50,20 @@ class RandomWorks {
     const auto poses = static_cast<Eigen::Index>(residuals.poses.size());
     RowMatrix lengths = matrix(poses, 2).cwiseAbs();
     lengths(0, 0) = 0.0;  // a joint that does not move that pose
-    return {std::move(residuals), matrix(rows, 2), std::move(lengths), std::move(circumstances), draws, 5};
+    return {std::move(residuals), matrix(rows, 2), std::move(lengths), std::move(circumstances), {draws, 5}};
   }
 
-  /// With what it refers to.
+  /// With what they refer to.
   struct Gains {
     std::vector<FeatureBlock> blocks;
     RowMatrix motions;
     std::unique_ptr<GainDraws> work;
+  };
+  struct Products {
+    std::vector<FeatureBlock> blocks;
+    std::vector<Eigen::Index> first_row;
+    RowMatrix motions, rows;
+    std::unique_ptr<CandidateProducts> work;
   };
   std::unique_ptr<Gains> gains(std::uint32_t draws = 70) {
     auto made = std::make_unique<Gains>();
@@ -66,7 +74,21 @@ class RandomWorks {
     parts.prices = {static_cast<double>(parts.noise.rows()), static_cast<double>(poses)};
     made->blocks = {{1, {0, 1, 4}, matrix(poses, 3)}, {0, {2, 3, 4, 5}, matrix(poses, 4)}};
     made->motions = matrix(parts.noise.rows(), 3);
-    made->work = std::make_unique<GainDraws>(std::move(parts), made->blocks, made->motions, draws, 6);
+    made->work = std::make_unique<GainDraws>(std::move(parts), made->blocks, made->motions, DrawCount{draws, 6});
+    return made;
+  }
+
+  Resamplings resamplings(std::uint32_t draws = 70) { return {matrix(6, 24), {draws, 7, 50}}; }
+
+  std::unique_ptr<Products> products(Eigen::Index blocks = 2) {
+    auto made = std::make_unique<Products>();
+    made->first_row = noise().first_row;
+    const auto poses = static_cast<Eigen::Index>(made->first_row.size()) - 1;
+    for (Eigen::Index i = 0; i < blocks; ++i)
+      made->blocks.push_back({i, {2 * i, 2 * i + 1, 2 * i + 3}, matrix(poses, 3)});
+    made->motions = matrix(made->first_row.back(), blocks);
+    made->rows = matrix(made->first_row.back(), 5);
+    made->work = std::make_unique<CandidateProducts>(made->blocks, made->first_row, made->motions, made->rows);
     return made;
   }
 

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "products/tall_products.hpp"
+#include "shared_work/shared_work.hpp"
+#include "shared_work/work_tables.hpp"
 
-namespace demecal::inline draws {
+namespace demecal::inline shared_work {
 
 using RowMatrixF = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -34,8 +36,8 @@ Rows along_motion(const std::vector<Eigen::Index>& first_row, const RowMatrix& m
 }
 
 /// The sum of what each block gives for its columns, of `columns` in all.
-template <typename Matrix>
-Matrix summed(const std::vector<FeatureBlock>& blocks, const std::vector<Matrix>& parts, Eigen::Index columns,
+template <typename Matrix, typename Part>
+Matrix summed(const std::vector<FeatureBlock>& blocks, const std::vector<Part>& parts, Eigen::Index columns,
               Eigen::Index count) {
   Matrix sum = Matrix::Zero(columns, count);
   for (std::size_t block = 0; block < parts.size(); ++block) {
@@ -45,8 +47,19 @@ Matrix summed(const std::vector<FeatureBlock>& blocks, const std::vector<Matrix>
   return sum;
 }
 
+/// Of each block a list (its columns) and two tables (its motion, its features).
+void append(const std::vector<FeatureBlock>& blocks, const RowMatrix& motions, WorkInputs& inputs);
+
+/// With those motions alone that the blocks are of.
+struct ReceivedBlocks {
+  std::vector<FeatureBlock> blocks;
+  RowMatrix motions;
+};
+/// All lists and tables that are left.
+ReceivedBlocks read_blocks(WorkReader& reader, std::size_t columns, const std::vector<Eigen::Index>& first_row);
+
 /// X^T rows of all `columns` columns X, in single precision.
 Eigen::MatrixXf transposed_times(const std::vector<FeatureBlock>& blocks, const std::vector<Eigen::Index>& first_row,
                                  const RowMatrix& motions, Eigen::Index columns, const RowMatrixF& rows);
 
-}  // namespace demecal::inline draws
+}  // namespace demecal::inline shared_work
