@@ -11,7 +11,7 @@
 namespace demecal::inline monitor {
 namespace {
 
-constexpr std::array kBreeds{"formulas", "sets", "draws"};
+constexpr std::array kBreeds{"formulas", "sets", "work"};
 
 }  // namespace
 
