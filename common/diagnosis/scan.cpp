@@ -154,7 +154,7 @@ std::vector<double> Scan::null_maxima(const EffectColumns& columns, const Residu
                         .along = along_.cast<float>(),
                         .candidates = std::move(candidates),
                         .prices = prices_},
-                       columns.blocks(), field.motions, static_cast<std::uint32_t>(count), random.name());
+                       columns.blocks(), field.motions, DrawCount{static_cast<std::uint32_t>(count), random.name()});
   std::vector<double> maxima;
   for (const std::vector<double>& piece : make(work)) std::ranges::copy(piece, std::back_inserter(maxima));
   std::sort(maxima.begin(), maxima.end());

@@ -48,7 +48,7 @@ std::string best_text(const PieceIsland&, const RunData&) {
 /// The matrices are held once: as those of the problem or of the work.
 RunData::RunData(CalibrationData received) : data(std::move(received)) {
   if (data.breeds == Breeds::work) {
-    work = shared_work(data.work);
+    work = received_work(data.work);
     data.work.lists = {};
     data.work.tables = {};
   }

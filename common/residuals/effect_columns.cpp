@@ -13,6 +13,7 @@
 #include "pieces/pieces.hpp"
 #include "products/tall_products.hpp"
 #include "residuals/residual_field.hpp"
+#include "shared_work/candidate_products.hpp"
 #include "shared_work/feature_blocks.hpp"
 
 namespace demecal::inline residuals {

@@ -164,7 +164,7 @@ double structure_p_value(const ResidualField& field, const Projection& model, co
   const Eigen::VectorXd residual = model.residual()(of_noise.rows());
   JointColumns joints = moved_by_joints(field, poses, chain);
   const AgreementDraws work(std::move(of_noise), std::move(joints.columns), std::move(joints.lengths), all,
-                            static_cast<std::uint32_t>(draws), random.name());
+                            DrawCount{static_cast<std::uint32_t>(draws), random.name()});
   const Eigen::VectorXd seen = work.agreements(residual);
   Eigen::MatrixXd null(seen.size(), draws);
   double* next = null.data();

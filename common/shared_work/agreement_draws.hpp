@@ -24,6 +24,8 @@ class AgreementDraws final : public RandomDraws {
   /// `joint_columns`: what a radian (or metre) of each joint does to the rows of the residuals' poses, one pose after
   /// another; `lengths`: of these columns, pose by pose (poses x joints). `circumstances`: pairs of places among the
   /// residuals' poses.
+  AgreementDraws(NullResiduals residuals, RowMatrix joint_columns, RowMatrix lengths, std::vector<Pairs> circumstances,
+                 const DrawCount& count);
   static std::unique_ptr<SharedWork> read(WorkReader& reader);
 
   /// Every pose's residual is taken as an error of each joint; a joint's errors as a column of unit length. For each

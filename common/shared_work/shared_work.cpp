@@ -46,7 +46,7 @@ std::optional<std::string> find_fault(const WorkInputs& inputs) {
   }
 }
 
-std::unique_ptr<SharedWork> shared_work(const WorkInputs& inputs) {
+std::unique_ptr<SharedWork> received_work(const WorkInputs& inputs) {
   return read_work(inputs);
 }
 

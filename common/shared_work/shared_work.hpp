@@ -45,7 +45,7 @@ class SharedWork {
   virtual std::uint32_t numbers_of_piece(std::size_t number) const = 0;
   /// From any thread.
   virtual std::vector<double> piece(std::size_t number) const = 0;
-  /// From which shared_work() makes work of the same pieces.
+  /// From which received_work() makes work of the same pieces.
   virtual WorkInputs inputs() const = 0;
 
  protected:
@@ -63,6 +63,6 @@ std::vector<std::vector<double>> do_work(const SharedWork& work);
 std::optional<std::string> find_fault(const WorkInputs& inputs);
 
 /// The work of inputs that have no fault.
-std::unique_ptr<SharedWork> shared_work(const WorkInputs& inputs);
+std::unique_ptr<SharedWork> received_work(const WorkInputs& inputs);
 
 }  // namespace demecal::inline shared_work

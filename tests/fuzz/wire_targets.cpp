@@ -1,8 +1,10 @@
 #include <cstring>
+#include <initializer_list>
 
 #include "../effect_sets/deceptive.hpp"
 #include "../protocol/random_messages.hpp"
 #include "../protocol/small_run.hpp"
+#include "../shared_work/random_works.hpp"
 #include "dds/participant.hpp"
 #include "dds/parts.hpp"
 #include "evolution/island.hpp"
@@ -42,7 +44,22 @@ void breed_sets(const CalibrationData& data) {
   another.run_epoch(island.last_migrants().individuals, [] {});
 }
 
+void do_pieces(const CalibrationData& data) {
+  constexpr std::size_t kMost = 20'000;  // numbers
+  std::size_t numbers = data.work.numbers_of_pieces.size();
+  for (const WorkTable& table : data.work.tables) numbers += table.numbers.size();
+  for (const std::uint32_t count : data.work.numbers_of_pieces) numbers += count;
+  if (numbers > kMost || find_fault(data)) return;
+  const auto run = std::make_shared<RunData>(data);
+  for (std::uint32_t piece = 0; piece < data.work.numbers_of_pieces.size(); ++piece) {
+    HostedIsland island(run, {data.run, {0, piece}, 1, "w", {}, {}});
+    while (!island.finished()) island.run_epoch({}, [] {});
+    demand(island.outcome("w").numbers.size() == data.work.numbers_of_pieces[piece], "a piece gives what it says");
+  }
+}
+
 void use(const CalibrationData& data) {
+  if (data.breeds == Breeds::work) return do_pieces(data);
   std::size_t cells = 0;
   for (const TrainingTable& table : data.tables) cells += table.variables.size() * table.target.size();
   const bool is_small = data.parameters.population_size <= 50 && cells <= 10000 && data.tables.size() <= 4;
@@ -243,6 +260,23 @@ Progress progress_of(const Checkpoint& checkpoint) {
   return progress;
 }
 
+/// A run for each kind of work.
+std::vector<CalibrationData> work_runs() {
+  RandomWorks works(5);
+  const auto gains = works.gains();
+  const auto products = works.products();
+  const AgreementDraws agreements = works.agreements(false), of_some = works.agreements(true);
+  const Resamplings resamplings = works.resamplings();
+  std::vector<CalibrationData> runs;
+  for (const SharedWork* work : std::initializer_list<const SharedWork*>{&agreements, &of_some, gains->work.get(),
+                                                                         &resamplings, products->work.get()}) {
+    runs.push_back(data_of_work(*work));
+    runs.back().run = 7;
+    demand(!find_fault(runs.back()), "work as it is made is sound");
+  }
+  return runs;
+}
+
 }  // namespace
 
 std::vector<Target> wire_targets() {
@@ -256,6 +290,7 @@ std::vector<Target> wire_targets() {
   const IslandTask set_task{7, {0, 2}, 1, "w", set_checkpoint.state, set_checkpoint.recent};
   return {parts_target(),
           target<CalibrationData>("message_data", {the_run(), sharing, the_set_run(), random.data()}),
+          target<CalibrationData>("message_work", work_runs()),
           target<IslandTask>("message_task", {task_after(0), task_after(1), set_task, random.task()}),
           target<Migrants>("message_migrants", {migrants_of(last), migrants_of(set_checkpoint), random.migrants()}),
           target<Progress>("message_progress", {progress_of(last), random.progress()}),

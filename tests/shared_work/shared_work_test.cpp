@@ -23,7 +23,7 @@ std::vector<WorkInputs> inputs_of_all_kinds(std::uint64_t seed) {
 void expect_same_elsewhere(const SharedWork& work) {
   const WorkInputs inputs = work.inputs();
   ASSERT_EQ(find_fault(inputs), std::nullopt);
-  const std::unique_ptr<SharedWork> elsewhere = shared_work(inputs);
+  const std::unique_ptr<SharedWork> elsewhere = received_work(inputs);
   EXPECT_EQ(elsewhere->inputs(), inputs);
   ASSERT_EQ(elsewhere->pieces(), work.pieces());
   ASSERT_EQ(inputs.numbers_of_pieces.size(), work.pieces());
@@ -139,7 +139,7 @@ TEST(SharedWork, OfAnyNumbersIsRefusedOrDone) {
         ++refused;
         continue;
       }
-      const std::unique_ptr<SharedWork> work = shared_work(inputs);
+      const std::unique_ptr<SharedWork> work = received_work(inputs);
       for (std::size_t piece = 0; piece < work->pieces(); ++piece)
         EXPECT_EQ(work->piece(piece).size(), inputs.numbers_of_pieces[piece]);
       ++made;
