@@ -1,5 +1,4 @@
 #include <cstring>
-#include <initializer_list>
 
 #include "../effect_sets/deceptive.hpp"
 #include "../protocol/random_messages.hpp"
@@ -262,15 +261,9 @@ Progress progress_of(const Checkpoint& checkpoint) {
 
 /// A run for each kind of work.
 std::vector<CalibrationData> work_runs() {
-  RandomWorks works(5);
-  const auto gains = works.gains();
-  const auto products = works.products();
-  const AgreementDraws agreements = works.agreements(false), of_some = works.agreements(true);
-  const Resamplings resamplings = works.resamplings();
   std::vector<CalibrationData> runs;
-  for (const SharedWork* work : std::initializer_list<const SharedWork*>{&agreements, &of_some, gains->work.get(),
-                                                                         &resamplings, products->work.get()}) {
-    runs.push_back(data_of_work(*work));
+  for (const WorkInputs& inputs : inputs_of_all_kinds(5)) {
+    runs.push_back(data_of_work(*received_work(inputs)));
     runs.back().run = 7;
     demand(!find_fault(runs.back()), "work as it is made is sound");
   }

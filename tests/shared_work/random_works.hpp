@@ -102,4 +102,10 @@ class RandomWorks {
   RandomStream random_;
 };
 
+inline std::vector<WorkInputs> inputs_of_all_kinds(std::uint64_t seed) {
+  RandomWorks works(seed);
+  return {works.agreements(false).inputs(), works.agreements(true).inputs(), works.gains()->work->inputs(),
+          works.resamplings().inputs(), works.products()->work->inputs()};
+}
+
 }  // namespace demecal

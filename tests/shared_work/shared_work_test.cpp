@@ -14,12 +14,6 @@
 namespace demecal {
 namespace {
 
-std::vector<WorkInputs> inputs_of_all_kinds(std::uint64_t seed) {
-  RandomWorks works(seed);
-  return {works.agreements(false).inputs(), works.agreements(true).inputs(), works.gains()->work->inputs(),
-          works.resamplings().inputs(), works.products()->work->inputs()};
-}
-
 void expect_same_elsewhere(const SharedWork& work) {
   const WorkInputs inputs = work.inputs();
   ASSERT_EQ(find_fault(inputs), std::nullopt);
