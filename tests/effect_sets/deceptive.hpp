@@ -1,7 +1,7 @@
 // A small problem of explanation whose answer is known.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 

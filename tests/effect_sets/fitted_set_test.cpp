@@ -1,9 +1,10 @@
 // A set of effects: its arithmetic is that of least squares, however it came about.
 #include "effect_sets/fitted_set.hpp"
+#include "decompositions/decompositions.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -39,7 +40,7 @@ TEST(FittedSet, IsLeastSquaresHoweverItCameAbout) {
     }
     const std::vector<std::size_t>& held = set.effects();
     const std::vector<Eigen::Index> at(held.begin(), held.end());
-    const Eigen::VectorXd solution = problem.gram(at, at).ldlt().solve(problem.moment(at).eval());
+    const Eigen::VectorXd solution = PivotedCholesky(problem.gram(at, at)).solve(problem.moment(at).eval());
     EXPECT_NEAR(set.squares(), problem.squares - solution.dot(problem.moment(at)), 1e-6 * problem.squares);
     ASSERT_EQ(set.columns(), solution.size());
     if (solution.size() == 0) continue;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "decompositions/decompositions.hpp"
 #include "effects/weight_parts.hpp"
 #include "kinematics/chain.hpp"
 #include "laden_arm.hpp"
@@ -166,7 +167,7 @@ TEST(UnitMotions, OfUnknownMassesAreThoseThatCanBeToldApart) {
 
 /// Least squares of the columns to a target: the largest residual.
 double largest_residual(const Eigen::MatrixXd& columns, const Eigen::VectorXd& target) {
-  return (columns * columns.colPivHouseholderQr().solve(target) - target).cwiseAbs().maxCoeff();
+  return (columns * PivotedQr(columns).solve(target) - target).cwiseAbs().maxCoeff();
 }
 
 TEST(UnitMotions, OfUnknownMassesSpanTheTorqueOfAnyMasses) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "decompositions/decompositions.hpp"
 #include "fitting/known_arm.hpp"
 #include "kinematics/inverse.hpp"
 
@@ -23,7 +24,7 @@ inline void touch(KnownArm& arm, RandomStream& stream, const std::string& contac
       const Eigen::MatrixXd rows = now.jacobian.topRows<3>();
       const Eigen::Vector3d off = goal - now.pose.translation();
       const Eigen::MatrixXd damped = rows * rows.transpose() + 1e-6 * Eigen::Matrix3d::Identity();
-      JointVector change = rows.transpose() * damped.ldlt().solve(off);
+      JointVector change = rows.transpose() * PivotedCholesky(damped).solve(off);
       const double largest = change.cwiseAbs().maxCoeff();
       if (largest > 0.3) change *= 0.3 / largest;
       q += change;

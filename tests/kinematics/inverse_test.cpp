@@ -1,9 +1,9 @@
 // Inverse kinematics: round trips, least-norm steps, honest words near singularities and out of reach.
 #include "kinematics/inverse.hpp"
+#include "decompositions/decompositions.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/SVD>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -14,7 +14,7 @@ namespace demecal {
 namespace {
 
 double smallest_singular(const Jacobian& jacobian) {
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues().minCoeff();
+  return singular_system(jacobian).values.minCoeff();
 }
 
 /// Calls `check(chain, q)` for random arms at joints well away from singularities.
@@ -60,10 +60,10 @@ TEST(Inverse, MovesSevenJointsNoFartherThanNeeded) {
     const InverseSolution solution = inverse(model_of(chain), target, q);
     ASSERT_EQ(solution.status, InverseStatus::converged);
     const Jacobian jacobian = model_of(chain)(q).jacobian;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobian, Eigen::ComputeFullV);
+    const SingularSystem singular = singular_system(jacobian, Eigen::ComputeFullV);
     // The change lies in the row space but for what the Jacobian turns along the way, of second order.
     const JointVector change = solution.q - q;
-    EXPECT_LT(std::abs(svd.matrixV().col(6).dot(change)), 20 * change.squaredNorm() / solution.smallest_singular);
+    EXPECT_LT(std::abs(singular.v.col(6).dot(change)), 20 * change.squaredNorm() / solution.smallest_singular);
     EXPECT_GT(change.norm(), little / 100);
   });
 }
@@ -98,15 +98,15 @@ TEST(Inverse, BesideAWristSingularityTakesBoundedSteps) {
   for (const double wrist_rad : {0.0, 1e-9, 1e-6, 1e-4, 1e-3, 1e-2}) {
     JointVector q(6);
     q << 0.3, -0.4, 0.5, 0.2, wrist_rad, 0.1;
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(model_of(chain)(q).jacobian, Eigen::ComputeThinU);
-    const PoseError lost = 1e-2 * svd.matrixU().col(5);
+    const SingularSystem singular = singular_system(model_of(chain)(q).jacobian, Eigen::ComputeThinU);
+    const PoseError lost = 1e-2 * singular.u.col(5);
     Eigen::Isometry3d target = forward(chain, q);
     target.linear() = Eigen::AngleAxisd(lost.tail<3>().norm(), lost.tail<3>().normalized()) * target.linear();
     target.pretranslate(lost.head<3>());
     const InverseSolution step = inverse(model_of(chain), target, q, {.max_iterations = 1});
     EXPECT_LT((step.q - q).norm(), 0.51) << wrist_rad;  // undamped: the error over the singular value
     EXPECT_EQ(step.status, InverseStatus::damped);
-    EXPECT_NEAR(step.smallest_singular, svd.singularValues()[5], 1e-12);
+    EXPECT_NEAR(step.smallest_singular, singular.values[5], 1e-12);
   }
 }
 

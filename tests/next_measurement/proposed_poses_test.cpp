@@ -1,9 +1,9 @@
 // Proposed poses: feasible, and more telling than random ones.
+#include "decompositions/decompositions.hpp"
 #include "next_measurement/next_measurement.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
 #include <set>
 
 #include "fitting/known_arm.hpp"
@@ -16,8 +16,7 @@ namespace {
 constexpr int kProposed = 8;
 
 double log_determinant(const Eigen::MatrixXd& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(covariance);
-  return eigen.eigenvalues().cwiseMax(1e-30).array().log().sum();
+  return eigen_system(covariance).values.cwiseMax(1e-30).array().log().sum();
 }
 
 Visit visit_of(const Stop& stop) {

@@ -1,9 +1,10 @@
 // No poses get below the bound, drawn or refined, measured once or several times; and the best of them get near it.
 #include "planning/design_bound.hpp"
+#include "decompositions/decompositions.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "planning/candidates.hpp"
 #include "planning/exchange.hpp"
@@ -28,7 +29,7 @@ class DesignBound : public testing::Test {
     const Eigen::MatrixXd rows = stacked_rows(model_, poses);
     const Eigen::MatrixXd information =
         known_ + Eigen::MatrixXd::Identity(known_.rows(), known_.cols()) + times * rows.transpose() * rows;
-    return workspace_.square_m2(information.inverse());
+    return workspace_.square_m2(Cholesky(information).inverse());
   }
   double bound_m2(std::size_t count, std::uint64_t seed) const {
     return least_square_m2(model_, space_, draw(200, seed), known_, workspace_.weight(), count, RandomStream{82, seed});

@@ -1,9 +1,10 @@
 // Refined poses tell more than those they began with, stay feasible, and their covariance is that of their rows.
+#include "decompositions/decompositions.hpp"
 #include "planning/exchange.hpp"
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 
 #include "kinematics/random_arm.hpp"
 #include "planning/candidates.hpp"
@@ -19,7 +20,7 @@ Eigen::MatrixXd covariance_of(const InformationModel& model, const std::vector<P
     const Eigen::MatrixXd rows = model.measured_rows(pose);
     information += rows.transpose() * rows;
   }
-  return information.inverse();
+  return Cholesky(information).inverse();
 }
 
 TEST(RefinedPoses, TellMoreStayFeasibleAndAreAFunctionOfTheArguments) {

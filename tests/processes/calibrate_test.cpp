@@ -47,13 +47,15 @@ TEST(Calibrate, WritesModelReportAndHistoryAndPrintsTheErrors) {
   EXPECT_EQ(job.text("out/history.csv").substr(0, 24), "joint,island,generation,");
 }
 
-TEST(Calibrate, GivesTheSameModelForOneAndTwoWorkersAndWorkersStartedBeforeOrAfter) {
+TEST(Calibrate, GivesTheSameModelForOneTwoAndTwelveWorkersAndWorkersStartedBeforeOrAfter) {
   const SmallJob job;
   ASSERT_EQ(run("demecal", calibrate(job, "one", 1)).code, 0);
   ASSERT_EQ(run("demecal", calibrate(job, "two", 2)).code, 0);
   const std::string model = job.text("one/model.yaml");
   ASSERT_FALSE(model.empty());
   EXPECT_EQ(model, job.text("two/model.yaml"));
+  ASSERT_EQ(run("demecal", with_shared_work(calibrate(job, "twelve", 12))).code, 0);
+  EXPECT_EQ(model, job.text("twelve/model.yaml"));
   {
     const auto first = worker(), second = worker();
     const Ended ended = run("demecal", with_shared_work(calibrate(job, "before", 0)));
@@ -78,12 +80,6 @@ TEST(Calibrate, SurvivesTheDeathOfAWorkerWithTheSameModel) {
   victim->signal(SIGKILL);
   ASSERT_EQ(coordinator.wait().code, 0);
   EXPECT_EQ(job.text("whole/model.yaml"), job.text("killed/model.yaml"));
-}
-
-TEST(Calibrate, TwelveWorkersFinishASmallJob) {
-  const SmallJob job;
-  const Ended ended = run("demecal", calibrate(job, "out", 12));
-  EXPECT_EQ(ended.code, 0) << ended.err;
 }
 
 TEST(Calibrate, EndsWithTwentyWhereNoWorkerComes) {

@@ -1,10 +1,9 @@
 // Arms to correct, and joints at which they are well away from singularities.
 #pragma once
 
-#include <Eigen/SVD>
-
 #include <limits>
 
+#include "decompositions/decompositions.hpp"
 #include "prediction/random_effects.hpp"
 #include "programs/correct_program.hpp"
 
@@ -49,7 +48,7 @@ inline CommandModel neutral_model(RandomStream& stream, const Robot& nominal) {
 
 inline bool is_regular(const Chain& chain, const JointVector& joints) {
   const Jacobian jacobian = joint_jacobian(chain, joints, chain.tool_m);
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(jacobian).singularValues().minCoeff() > 0.1;
+  return singular_system(jacobian).values.minCoeff() > 0.1;
 }
 
 inline JointVector regular_joints(RandomStream& stream, const Chain& chain) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -85,7 +85,7 @@ struct Valley {
     jacobian << -20.0 * at.x(), 10.0, -1.0, 0.0;
     Eigen::Matrix2d normal = jacobian.transpose() * jacobian;
     normal.diagonal() *= 1.0 + damping;
-    tried = at - normal.ldlt().solve(jacobian.transpose() * residual(at));
+    tried = at - normal.inverse() * jacobian.transpose() * residual(at);
     return residual(tried).squaredNorm();
   }
   void accept() { at = tried; }

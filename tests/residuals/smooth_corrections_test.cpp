@@ -2,11 +2,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
 #include <numeric>
 
 #include <cmath>
 
+#include "decompositions/decompositions.hpp"
 #include "measured_arm.hpp"
 #include "prediction/random_robot.hpp"
 #include "residuals/diagnosed_model.hpp"
@@ -80,9 +80,7 @@ TEST(SmoothCorrections, BeginWithAConstantAndIndependentPolynomials) {
       values(pose, term) = correction(arm.data.poses[static_cast<std::size_t>(pose)].joints[0]);
     }
   }
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> pivoted(values);
-  pivoted.setThreshold(1e-6);
-  EXPECT_EQ(pivoted.rank(), kPolynomials);
+  EXPECT_EQ(PivotedQr(values, 1e-6).rank(), kPolynomials);
   EXPECT_EQ(values.col(0), Eigen::VectorXd::Ones(60));
 }
 
@@ -128,7 +126,8 @@ TEST(Relevance, KeepsTermsThatAreThereAndRemovesThoseThatAreNot) {
     const Eigen::VectorXd precision = relevance(rows.transpose() * rows, each_its_own, kRows);
     Eigen::MatrixXd gram = (rows.transpose() * rows).topLeftCorner(kFixed + kTerms, kFixed + kTerms);
     gram.diagonal().tail(kTerms) += precision.cwiseAbs2();
-    const Eigen::VectorXd found = gram.ldlt().solve(rows.leftCols(kFixed + kTerms).transpose() * rows.rightCols(1));
+    const Eigen::VectorXd found =
+        PivotedCholesky(gram).solve(rows.leftCols(kFixed + kTerms).transpose() * rows.rightCols(1));
     int removed = 0;
     for (Eigen::Index i = 0; i < kTerms; ++i) {
       const double expected = truth[kFixed + i];
@@ -158,7 +157,7 @@ TEST(Relevance, BelievesTermsOfAFamilyToBeOfLikeSize) {
       const Eigen::VectorXd precision = relevance(rows.transpose() * rows, families, kRows);
       Eigen::MatrixXd gram = rows.leftCols(kTerms).transpose() * rows.leftCols(kTerms);
       gram.diagonal() += precision.cwiseAbs2();
-      return (gram.ldlt().solve(rows.leftCols(kTerms).transpose() * rows.rightCols(1)) - truth).squaredNorm();
+      return (PivotedCholesky(gram).solve(rows.leftCols(kTerms).transpose() * rows.rightCols(1)) - truth).squaredNorm();
     };
     error_alike += error(alike);
     error_alone += error(each_its_own);
