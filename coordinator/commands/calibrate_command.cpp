@@ -286,7 +286,7 @@ void add_calibrate(CLI::App& app, ExitCode& exit_code) {
   command
       ->add_option("--share-work", request->share_work_from_s,
                    "workers take part in scans, draws and resamplings that would take one core SECONDS or longer: the "
-                   "same result, perhaps sooner if elsewhere")
+                   "same result")
       ->check(number_from(0.0, 3600.0));
   command->add_flag("--quiet", request->quiet, "no progress, only the result");
   add_force(*command, request->force);
