@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <span>
+#include <utility>
 
 #include "calibration/training.hpp"
 #include "effects/arm_state.hpp"
@@ -50,6 +52,22 @@ bool moves_any_pose(const DataSet& data, const CorrectedRobot& robot, std::size_
   });
 }
 
+/// A sum without the terms that stay below a microradian over the range; nothing where none is left.
+std::optional<Tree> without_small_terms(std::span<const Node> sum, const Interval& range) {
+  const Primitive root = sum.front().primitive;
+  if (root != Primitive::add && root != Primitive::subtract) {
+    Tree term(sum.begin(), sum.end());
+    if (stays_within(term, range, kNegligible)) return std::nullopt;
+    return term;
+  }
+  const std::size_t second = subtree_end(sum, 1);
+  const std::optional<Tree> left = without_small_terms(sum.subspan(1, second - 1), range);
+  const std::optional<Tree> right = without_small_terms(sum.subspan(second), range);
+  if (left && right) return apply(root, *left, *right);
+  if (left || root == Primitive::add) return left ? left : right;
+  return right ? std::optional(apply(Primitive::multiply, constant_tree(-1.0), *right)) : std::nullopt;
+}
+
 }  // namespace
 
 bool is_bounded(const JointCorrection& correction, const JointTraining& training) {
@@ -84,7 +102,12 @@ CorrectedRobot without_negligible_corrections(const DataSet& data, CorrectedRobo
   for (std::size_t joint = 0; joint < robot.corrections.size(); ++joint) {
     JointCorrection& correction = robot.corrections[joint];
     if (correction.is_neutral()) continue;
-    if (stays_below(correction, kNegligible) || !moves_any_pose(data, whole, joint)) correction = JointCorrection{};
+    const std::optional<Tree> terms = without_small_terms(correction.formula(), correction.range_rad());
+    if (!terms || !moves_any_pose(data, whole, joint)) {
+      correction = JointCorrection{};
+    } else if (*terms != correction.formula()) {
+      correction = JointCorrection(*terms, correction.branch(), correction.range_rad());
+    }
   }
   return robot;
 }

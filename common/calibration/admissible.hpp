@@ -21,8 +21,9 @@ std::vector<JointCorrection> admissible_corrections(const JointCandidates& candi
 /// What evolution ended with: of the bounded members of the front the fittest; neutral where there is none.
 JointCorrection fittest_correction(const JointCandidates& candidates);
 
-/// The robot without corrections that do nothing: that stay below a microradian (micrometre) over their range, or move
-/// the tool of no pose by a micrometre nor, where any orientation was measured, turn it by a microradian.
+/// The robot without the terms of its corrections' sums that stay below a microradian (micrometre) over their range,
+/// and without corrections that do nothing: that stay below a microradian (micrometre) over their range, or move the
+/// tool of no pose by a micrometre nor, where any orientation was measured, turn it by a microradian.
 CorrectedRobot without_negligible_corrections(const DataSet& data, CorrectedRobot robot);
 
 /// A correction as it evolved.

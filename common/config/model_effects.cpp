@@ -90,8 +90,8 @@ Tree read_symbolic_formula(const YamlNode& node, const Chain& chain) {
 
 double read_setting(const YamlNode& node, const Robot& robot) {
   if (node.name == "from") return static_cast<double>(node.whole_number(1, robot.chain.size()));
-  const bool of_any_sign =
-      node.name.starts_with("reference_") || node.name.starts_with("logged_") || node.name.starts_with("shortest_");
+  const bool of_any_sign = node.name.starts_with("reference_") || node.name.starts_with("logged_") ||
+                           node.name.starts_with("shortest_") || node.name.starts_with("at_");
   return of_any_sign ? node.number() : node.positive();
 }
 

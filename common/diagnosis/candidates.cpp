@@ -122,6 +122,7 @@ std::vector<Candidate> candidates_for(const Robot& robot, const Evidence& eviden
   std::vector<Candidate> candidates;
   for (const EffectLaw* law : catalogue()) {
     if (!is_wanted(options.kinds, law->kind()) || declared.holds(law->kind())) continue;
+    if (law->is_last_resort() != options.last_resort) continue;
     const bool symbolic = law->takes_formula();
     std::vector<Effect> proposals =
         symbolic && options.formulas ? formula_library(robot, evidence) : law->proposals(robot, evidence);
@@ -151,6 +152,17 @@ std::vector<ArmState> with_shuffled(const std::vector<ArmState>& states, DecoyKi
     if (decoy_kind == DecoyKind::shuffled_temperature) changed[i].stop.temperature_celsius = other.temperature_celsius;
   }
   return changed;
+}
+
+std::vector<SampledEffect> sampled_effects(const std::vector<Candidate>& candidates,
+                                           const std::vector<ArmState>& states, const DecoyStates& of_decoys) {
+  std::vector<SampledEffect> sampled;
+  for (const Candidate& candidate : candidates) {
+    const DecoyKind kind = candidate.decoy_kind;
+    const bool sides = kind == DecoyKind::shuffled_approach, heat = kind == DecoyKind::shuffled_temperature;
+    sampled.push_back({candidate.effect, sides ? of_decoys.sides : heat ? of_decoys.heat : states});
+  }
+  return sampled;
 }
 
 std::string decoy_name(const Candidate& candidate) {

@@ -12,6 +12,7 @@
 #include "effects/effect.hpp"
 #include "parameters/declared_model.hpp"
 #include "random/random_stream.hpp"
+#include "residuals/residual_field.hpp"
 
 namespace demecal::inline diagnosis {
 
@@ -39,6 +40,7 @@ struct CandidateOptions {
   std::vector<std::string> kinds;  ///< words of the catalogue; empty: all
   bool formulas = true;            ///< formulas outside the catalogue compete too
   bool decoys = true;
+  bool last_resort = false;  ///< the laws that are one, and no others
 };
 
 /// All proposals of the laws within the evidence, ranges of validity set, less what is declared already, and decoys:
@@ -58,6 +60,15 @@ void set_measured_ranges(Effect& effect, const Robot& robot, const Evidence& evi
 
 /// The states that a decoy sees: `states` with approach signs or temperatures dealt out anew over the poses.
 std::vector<ArmState> with_shuffled(const std::vector<ArmState>& states, DecoyKind decoy_kind, RandomStream random);
+
+/// The states of decoys: with sides and with temperatures dealt out anew.
+struct DecoyStates {
+  std::vector<ArmState> sides, heat;
+};
+
+/// The candidates' effects at the states that they see, which must outlive them.
+std::vector<SampledEffect> sampled_effects(const std::vector<Candidate>& candidates,
+                                           const std::vector<ArmState>& states, const DecoyStates& of_decoys);
 
 /// "gear_harmonic of joint 2 at ratio 347.3", for people.
 std::string decoy_name(const Candidate& candidate);

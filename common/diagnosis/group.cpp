@@ -58,6 +58,15 @@ std::vector<double> Group::decoy_p_values() const {
   return all;
 }
 
+void Group::record_decoys(const GroupOutcome& outcome, std::vector<Decoy>& decoys) const {
+  const std::vector<double> p_left = decoy_p_values();
+  for (std::size_t i = 0; i < decoys.size(); ++i) {
+    decoys[i].best_gain_nats = std::max(decoys[i].best_gain_nats, decoy_gains_[i]);
+    decoys[i].won = decoys[i].won || outcome.winning_decoy == decoys[i].name;
+    decoys[i].p_left = p_left[i];
+  }
+}
+
 RandomStream Group::random(RandomPurpose purpose) const {
   return RandomStream{rules_.seed, number_of(purpose), static_cast<std::uint64_t>(rules_.group),
                       outcome_.rounds.size()};

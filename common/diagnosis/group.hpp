@@ -64,10 +64,10 @@ class Group {
   /// description, whose sign is stable and whose size is physical, and that lowers the validation error; added ones
   /// stay up to the last that the validation poses confirm.
   GroupOutcome run(const std::function<bool(const Round&)>& watch);
-  /// The description length gained by the best form of every decoy, in candidates' order.
-  const std::vector<double>& decoy_gains() const { return decoy_gains_; }
-  /// In the same order: how often noise alone explains as much as the decoy does beside what run() added.
-  std::vector<double> decoy_p_values() const;
+  /// Brings what is known of the decoys, in candidates' order, up to date with what run() gave: the description length
+  /// that the best form of each gained at most, and how often noise alone explains as much as it does beside what was
+  /// added.
+  void record_decoys(const GroupOutcome& outcome, std::vector<Decoy>& decoys) const;
 
  private:
   /// A candidate beside the model, and all candidates' columns^T the ones that it would add.
@@ -91,6 +91,7 @@ class Group {
   void exclude_equivalents(const Round& round);
   void drop_unconfirmed();
   RandomStream random(RandomPurpose purpose) const;
+  std::vector<double> decoy_p_values() const;
 
   const DiagnosisProblem& problem_;
   const DiagnosedModel& model_;

@@ -11,6 +11,7 @@
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/explain.hpp"
 #include "diagnosis/group.hpp"
+#include "diagnosis/last_resort.hpp"
 #include "diagnosis/scan.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
@@ -20,7 +21,6 @@
 #include "products/tall_products.hpp"
 #include "random/random_purpose.hpp"
 #include "random/random_stream.hpp"
-#include "residuals/noise_estimation.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/structure.hpp"
@@ -31,10 +31,9 @@ namespace {
 constexpr int kFirstSteps = 12;  ///< of Gauss and Newton, from the declared fit
 constexpr int kLaterSteps = 3;   ///< after effects were added to a model that was already refined
 constexpr int kMostGroups = 60;
+constexpr int kMostOffers = 4;      ///< of last resorts, each beside those that were taken
 constexpr int kMostOneByOne = 100;  ///< effects after which the search for sets of them gains more than a further one
-/// Of more poses the many small errors that no model has are larger than what noise has in common, and taken for it.
-constexpr std::size_t kMostPosesForNoise = 400;
-constexpr double kOutlier = 0.05;                    ///< root of a pose's weight below which it counts as far out
+constexpr double kOutlier = 0.05;   ///< root of a pose's weight below which it counts as far out
 constexpr std::size_t kMostPosesForFormulas = 5000;  ///< thousands of formulas over more take minutes
 
 class ClosedLoop {
@@ -45,20 +44,29 @@ class ClosedLoop {
   LoopResult run(DiagnosedModel start);
 
  private:
+  Evidence evidence_here() const;
   void make_candidates(const Linearization& linearization);
-  void measure_pure_error(const Linearization& linearization);
+  void measure_pure_error(const Linearization& linearization) {
+    measure_lack_of_fit(problem_, model_, linearization, start_excess_, outcome_);
+  }
   GroupRules rules() const;
   int most_one_by_one() const { return std::min(options_.max_effects, kMostOneByOne + held_at_start_); }
   std::vector<bool> excluded_candidates() const;
-  void estimate_noise();
-  void record_decoys(const Group& group, const GroupOutcome& outcome);
+  void estimate_noise() {
+    if (options_.noise) model_ = with_noise_known(problem_, std::move(model_), group_ == 0);
+  }
   bool run_group(const Linearization& linearization);
+  void run_groups(Linearization& linearization, LoopResult& result);
+  bool offer_last_resorts(const Linearization& linearization);
   StopReason reason_to_stop(const GroupOutcome& last) const;
   Linearization choose_explanation(const Linearization& linearization, LoopResult& result);
   Linearization choose_explanation(Linearization linearization, const ExplanationSearch& search, LoopResult& result);
   void finish(const Linearization& linearization);
   RandomStream random(RandomPurpose purpose) const {
     return RandomStream{options_.seed, number_of(purpose), static_cast<std::uint64_t>(group_)};
+  }
+  RandomStream random_of_loop(RandomPurpose purpose) const {
+    return RandomStream{options_.seed, number_of(purpose), 0};
   }
   double structure(const Linearization& linearization) const {
     return structure_p_value(linearization.fitted, linearization.projection, problem_.data.robot.chain,
@@ -71,6 +79,7 @@ class ClosedLoop {
   DiagnosedModel model_;
   LoopOutcome outcome_;
   std::vector<Candidate> candidates_;
+  std::vector<Candidate> last_resorts_;  ///< in the order in which they were found
   EffectColumns columns_;
   std::vector<double> null_maxima_;
   std::optional<double> start_excess_;  ///< mean square of the residual above that of repeats, m^2
@@ -79,10 +88,15 @@ class ClosedLoop {
   bool interrupted_ = false;  ///< by the watcher
 };
 
-void ClosedLoop::make_candidates(const Linearization& linearization) {
+Evidence ClosedLoop::evidence_here() const {
   Evidence evidence = evidence_of(problem_.data, problem_.fitted);
   evidence.highest_ratio = options_.highest_ratio;
   evidence.stated_ratios = options_.stated_ratios;
+  return evidence;
+}
+
+void ClosedLoop::make_candidates(const Linearization& linearization) {
+  const Evidence evidence = evidence_here();
   outcome_.untestable = untestable_kinds(evidence, options_.kinds);
   outcome_.considered = options_.kinds;
   const bool formulas = options_.formulas && problem_.fitted.size() <= kMostPosesForFormulas;
@@ -90,53 +104,21 @@ void ClosedLoop::make_candidates(const Linearization& linearization) {
       candidates_for(problem_.data.robot, evidence, problem_.declared, {options_.kinds, formulas, options_.decoys});
   const auto decoys =
       std::ranges::find_if(candidates_, [](const Candidate& c) { return c.decoy_kind != DecoyKind::none; });
-  const auto evolved = candidates_.insert(decoys, options_.evolved.begin(), options_.evolved.end());
-  std::for_each_n(evolved, options_.evolved.size(),
-                  [&](Candidate& candidate) { set_measured_ranges(candidate.effect, problem_.data.robot, evidence); });
+  std::vector<Candidate> found = options_.evolved;
+  for (Candidate& candidate : found) set_measured_ranges(candidate.effect, problem_.data.robot, evidence);
+  std::ranges::copy(last_resorts_, std::back_inserter(found));
+  candidates_.insert(decoys, found.begin(), found.end());
+  outcome_.candidates = static_cast<int>(std::ranges::count(candidates_, DecoyKind::none, &Candidate::decoy_kind));
+  if (outcome_.decoys.empty())
+    for (const Candidate& candidate : candidates_)
+      if (candidate.decoy_kind != DecoyKind::none) outcome_.decoys.push_back({.name = decoy_name(candidate)});
   const std::vector<ArmState>& states = linearization.fitted.states;
-  const auto shuffled_approach =
-      with_shuffled(states, DecoyKind::shuffled_approach, random(RandomPurpose::shuffled_approach));
-  const auto shuffled_heat =
-      with_shuffled(states, DecoyKind::shuffled_temperature, random(RandomPurpose::shuffled_temperature));
-  std::vector<SampledEffect> sampled;
-  for (const Candidate& candidate : candidates_) {
-    const DecoyKind kind = candidate.decoy_kind;
-    const bool sides = kind == DecoyKind::shuffled_approach, heat = kind == DecoyKind::shuffled_temperature;
-    sampled.push_back({candidate.effect, sides ? shuffled_approach : heat ? shuffled_heat : states});
-    outcome_.candidates += kind == DecoyKind::none;
-    if (kind != DecoyKind::none) outcome_.decoys.push_back({.name = decoy_name(candidate)});
-  }
-  columns_.append(sampled, problem_.data.robot);
+  const DecoyStates of_decoys{
+      with_shuffled(states, DecoyKind::shuffled_approach, random_of_loop(RandomPurpose::shuffled_approach)),
+      with_shuffled(states, DecoyKind::shuffled_temperature, random_of_loop(RandomPurpose::shuffled_temperature))};
+  columns_ = EffectColumns();
+  columns_.append(sampled_effects(candidates_, states, of_decoys), problem_.data.robot);
   columns_.pack();
-}
-
-/// How measurements scatter, and the model's numbers by that; twice, since either depends on the other.
-void ClosedLoop::estimate_noise() {
-  constexpr int kRounds = 2;
-  if (!options_.noise || problem_.fitted.size() > kMostPosesForNoise || has_contacts(problem_.data)) return;
-  const bool several_kinds = std::ranges::count_if(model_.scales, [](double scale) { return scale > 0.0; }) > 1;
-  if (group_ > 0 && several_kinds) {
-    // An effect that was missing may have shown in one kind of rows more than in another.
-    model_.noise = {};
-    model_.noise_estimated = false;
-    model_ = refined(problem_, std::move(model_), kLaterSteps);
-  }
-  for (int round = 0; round < kRounds - (group_ > 0); ++round) {
-    model_ = with_noise_estimated(problem_, std::move(model_));
-    model_ = refined(problem_, std::move(model_), kLaterSteps);
-  }
-}
-
-void ClosedLoop::measure_pure_error(const Linearization& linearization) {
-  if (const auto plain = pure_error(problem_.data, problem_.fitted)) outcome_.repeat_scatter_m = plain->deviation_m;
-  // Repeats by a precise instrument say nothing of what a coarse one leaves: all in units of their station's noise.
-  const auto pure = pure_error(problem_.data, problem_.fitted, model_.scales);
-  if (!pure) return;
-  const auto [squares, freedom] = position_errors(problem_, linearization, model_.scales);
-  if (!outcome_.lack_of_fit_p) outcome_.lack_of_fit_p = lack_of_fit_p_value(*pure, squares, freedom);
-  const double left = squares / freedom - std::pow(pure->deviation_m, 2);
-  if (!start_excess_) start_excess_ = left;
-  if (*start_excess_ > 0.0) outcome_.explained_share = 1.0 - std::max(0.0, left) / *start_excess_;
 }
 
 GroupRules ClosedLoop::rules() const {
@@ -159,15 +141,6 @@ std::vector<bool> ClosedLoop::excluded_candidates() const {
   return candidates_among(candidates_, out);
 }
 
-void ClosedLoop::record_decoys(const Group& group, const GroupOutcome& outcome) {
-  for (std::size_t i = 0; i < outcome_.decoys.size(); ++i) {
-    Decoy& decoy = outcome_.decoys[i];
-    decoy.best_gain_nats = std::max(decoy.best_gain_nats, group.decoy_gains()[i]);
-    decoy.won = decoy.won || outcome.winning_decoy == decoy.name;
-    decoy.p_left = group.decoy_p_values()[i];
-  }
-}
-
 StopReason ClosedLoop::reason_to_stop(const GroupOutcome& last) const {
   if (last.winning_decoy) return StopReason::decoy;
   return last.not_significant ? StopReason::no_structure : StopReason::no_gain;
@@ -177,7 +150,7 @@ StopReason ClosedLoop::reason_to_stop(const GroupOutcome& last) const {
 bool ClosedLoop::run_group(const Linearization& linearization) {
   Group group(problem_, model_, linearization, candidates_, columns_, excluded_candidates(), null_maxima_, rules());
   GroupOutcome outcome = group.run(watch_);
-  record_decoys(group, outcome);
+  group.record_decoys(outcome, outcome_.decoys);
   interrupted_ = outcome.stopped;
   const bool added = !outcome.added.empty();
   for (Effect effect : outcome.added) {
@@ -192,19 +165,9 @@ bool ClosedLoop::run_group(const Linearization& linearization) {
   return more;
 }
 
-LoopResult ClosedLoop::run(DiagnosedModel start) {
-  LoopResult result;
-  model_ = refined(problem_, std::move(start), kFirstSteps);
-  result.before = model_;
-  estimate_noise();
-  held_at_start_ = static_cast<int>(model_.robot.effects.size());
-  Linearization linearization = linearize(problem_, model_);
-  make_candidates(linearization);
-  measure_pure_error(linearization);
-  outcome_.null_draws = options_.null_draws;
-  outcome_.stopped = StopReason::no_gain;
-  p_structure_ = structure(linearization);
-  for (group_ = 1; group_ <= kMostGroups; ++group_) {
+/// Group after group, until no more may follow.
+void ClosedLoop::run_groups(Linearization& linearization, LoopResult& result) {
+  for (++group_; group_ <= kMostGroups; ++group_) {
     if (static_cast<int>(model_.robot.effects.size()) >= most_one_by_one()) {
       outcome_.stopped = StopReason::max_effects;
       break;
@@ -219,6 +182,35 @@ LoopResult ClosedLoop::run(DiagnosedModel start) {
     }
     if (!more) break;
   }
+}
+
+/// Whether laws that are a last resort explain any structure that is left: from here on they are tried too.
+bool ClosedLoop::offer_last_resorts(const Linearization& linearization) {
+  if (interrupted_ || p_structure_ > options_.family_error) return false;
+  const Evidence evidence = evidence_here();
+  const LastResort search{
+      problem_, evidence, options_.kinds, options_.family_error, options_.null_draws, options_.work.do_work};
+  if (!add_last_resorts(search, model_, linearization, random(RandomPurpose::last_resort), last_resorts_)) return false;
+  make_candidates(linearization);
+  null_maxima_.clear();
+  return true;
+}
+
+LoopResult ClosedLoop::run(DiagnosedModel start) {
+  LoopResult result;
+  model_ = refined(problem_, std::move(start), kFirstSteps);
+  result.before = model_;
+  estimate_noise();
+  held_at_start_ = static_cast<int>(model_.robot.effects.size());
+  Linearization linearization = linearize(problem_, model_);
+  make_candidates(linearization);
+  measure_pure_error(linearization);
+  outcome_.null_draws = options_.null_draws;
+  outcome_.stopped = StopReason::no_gain;
+  p_structure_ = structure(linearization);
+  run_groups(linearization, result);
+  for (int offers = 0; offers < kMostOffers && offer_last_resorts(linearization); ++offers)
+    run_groups(linearization, result);
   if (outcome_.stopped == StopReason::no_structure && p_structure_ <= options_.family_error)
     outcome_.stopped = StopReason::no_gain;
   linearization = choose_explanation(std::move(linearization), result);

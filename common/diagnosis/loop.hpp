@@ -89,6 +89,17 @@ struct PositionSums {
 PositionSums position_errors(const DiagnosisProblem& problem, const Linearization& linearization,
                              const RowScales& scales);
 
+/// The model with its noise as the fitted poses say, at its least-squares values by that; twice at `first`, since
+/// either depends on the other. The model itself of more than 400 poses, whose many small errors that no model has
+/// would be taken for noise, and of contacts.
+DiagnosedModel with_noise_known(const DiagnosisProblem& problem, DiagnosedModel model, bool first);
+
+/// Sets what repeats tell of the model: their scatter, whether it lacks anything, and how much of the mean square
+/// beyond that scatter it explains, the first time none. `start_excess_m2` is that of the first time.
+void measure_lack_of_fit(const DiagnosisProblem& problem, const DiagnosedModel& model,
+                         const Linearization& linearization, std::optional<double>& start_excess_m2,
+                         LoopOutcome& outcome);
+
 /// Brings the rounds up to date with the final model: added effects with their values in it; those that are no longer
 /// in it were not added after all.
 void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described);

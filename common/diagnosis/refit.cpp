@@ -25,6 +25,7 @@
 #include "prediction/measurement.hpp"
 #include "random/distributions.hpp"
 #include "residuals/diagnosed_model.hpp"
+#include "residuals/noise_estimation.hpp"
 #include "residuals/projection.hpp"
 #include "residuals/residual_field.hpp"
 #include "residuals/smooth_corrections.hpp"
@@ -33,6 +34,8 @@ namespace demecal::inline diagnosis {
 namespace {
 
 constexpr int kRefitSteps = 3;
+constexpr int kStepsWithNoise = 3;
+constexpr std::size_t kMostPosesForNoise = 400;
 
 /// The columns of each effect among the free parameters.
 std::vector<std::vector<Eigen::Index>> effect_column_indices(const Linearization& linearization, std::size_t effects) {
@@ -112,6 +115,37 @@ PositionSums position_errors(const DiagnosisProblem& problem, const Linearizatio
   }
   sum.squares *= std::pow(scales[kPosition], 2);
   return sum;
+}
+
+DiagnosedModel with_noise_known(const DiagnosisProblem& problem, DiagnosedModel model, bool first) {
+  constexpr int kRounds = 2;
+  if (problem.fitted.size() > kMostPosesForNoise || has_contacts(problem.data)) return model;
+  const bool several_kinds = std::ranges::count_if(model.scales, [](double scale) { return scale > 0.0; }) > 1;
+  if (!first && several_kinds) {
+    // An effect that was missing may have shown in one kind of rows more than in another.
+    model.noise = {};
+    model.noise_estimated = false;
+    model = refined(problem, std::move(model), kStepsWithNoise);
+  }
+  for (int round = 0; round < kRounds - (first ? 0 : 1); ++round) {
+    model = with_noise_estimated(problem, std::move(model));
+    model = refined(problem, std::move(model), kStepsWithNoise);
+  }
+  return model;
+}
+
+void measure_lack_of_fit(const DiagnosisProblem& problem, const DiagnosedModel& model,
+                         const Linearization& linearization, std::optional<double>& start_excess_m2,
+                         LoopOutcome& outcome) {
+  if (const auto plain = pure_error(problem.data, problem.fitted)) outcome.repeat_scatter_m = plain->deviation_m;
+  // Repeats by a precise instrument say nothing of what a coarse one leaves: all in units of their station's noise.
+  const auto pure = pure_error(problem.data, problem.fitted, model.scales);
+  if (!pure) return;
+  const auto [squares, freedom] = position_errors(problem, linearization, model.scales);
+  if (!outcome.lack_of_fit_p) outcome.lack_of_fit_p = lack_of_fit_p_value(*pure, squares, freedom);
+  const double left = squares / freedom - std::pow(pure->deviation_m, 2);
+  if (!start_excess_m2) start_excess_m2 = left;
+  if (*start_excess_m2 > 0.0) outcome.explained_share = 1.0 - std::max(0.0, left) / *start_excess_m2;
 }
 
 void update_rounds(LoopOutcome& outcome, const CorrectedRobot& model, const Robot& described) {

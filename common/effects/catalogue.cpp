@@ -25,6 +25,7 @@ const EffectLaw& compliance_law();
 const EffectLaw& balancer_law();
 const EffectLaw& link_bending_law();
 const EffectLaw& coupling_law();
+const EffectLaw& jump_law();
 const EffectLaw& backlash_law();
 const EffectLaw& hysteresis_law();
 const EffectLaw& axis_wobble_law();
@@ -73,14 +74,15 @@ const std::vector<CatalogueLine>& catalogue_lines() {
       {&balancer_law(), CauseGroup::balance_spring, 10, kLast, "the balancer's pull", 0.02, 0.02},
       {&link_bending_law(), CauseGroup::elasticity, 11, 7, "bending of the link", 0.02, 0.02},
       {&coupling_law(), CauseGroup::transmission, 12, 4, "coupling to another joint", 0.02, 0.02},
+      {&jump_law(), CauseGroup::transmission, 17, kLast, "a jump", 0.005, 0.005},
       {&backlash_law(), CauseGroup::lost_motion, 6, 0, "backlash", 0.005, 0.005},
       {&hysteresis_law(), CauseGroup::lost_motion, 9, 3, "friction hysteresis", 0.005, 0.005},
       {&axis_wobble_law(), CauseGroup::bearing, 13, 6, "wobble of the axis", 0.005, 0.005},
       {&thermal_offset_law(), CauseGroup::heat, 14, 8, "the zero's shift with temperature", 0.005, 0.005},
       {&thermal_length_law(), CauseGroup::heat, 15, kLast, "thermal growth", 0.005, 0.005},
       {&drift_law(), CauseGroup::instrument, 16, 9, "drift of base or instrument", 0.005, 0.005},
-      {&sensor_scale_law(), CauseGroup::instrument, 18, kLast, "instrument scale", 0.005, 0.005},
-      {&symbolic_law(), CauseGroup::formula, 17, kLast, "a formula", 0.02, 0.02}};
+      {&sensor_scale_law(), CauseGroup::instrument, 19, kLast, "instrument scale", 0.005, 0.005},
+      {&symbolic_law(), CauseGroup::formula, 18, kLast, "a formula", 0.02, 0.02}};
   return lines;
 }
 

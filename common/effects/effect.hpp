@@ -114,6 +114,12 @@ class EffectLaw {
                             std::vector<UnitMotion>& motions) const = 0;
   /// The effects of this kind that are worth trying on such data, coefficients unknown.
   virtual std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const = 0;
+  /// Further ones close to one of these, which it may be found among; none of laws whose proposals are all there is.
+  virtual std::vector<Effect> finer_proposals(const Effect& /*effect*/, const Evidence& /*evidence*/) const {
+    return {};
+  }
+  /// Whether its effects are tried only where all others left structure: so many are proposed, and so seldom one is.
+  virtual bool is_last_resort() const { return false; }
   /// What data must hold for it to be seen.
   virtual Needs needs(const Effect& effect, const Robot& robot) const = 0;
   /// "dq2 = -0.00025 rad s2": value, law and unit in one line.

@@ -12,13 +12,6 @@ namespace {
 
 constexpr double kArcsecondsPerRadian = 3600.0 * 180.0 / std::numbers::pi;
 
-std::string significant_text(double value, int count) {
-  std::ostringstream text;
-  text.precision(count);
-  text << value;
-  return text.str();
-}
-
 /// "0.0003 rad cos(24 q2)", without its sign.
 std::string size_of_term(const Term& term, double value, const std::string& unit) {
   std::string text = significant_text(std::abs(value), 4);
@@ -47,6 +40,13 @@ const Elementary& transform_of(const Chain& chain, LinkParameter parameter) {
 }
 
 }  // namespace
+
+std::string significant_text(double value, int count) {
+  std::ostringstream text;
+  text.precision(count);
+  text << value;
+  return text.str();
+}
 
 void append_joint_motion(const Robot& robot, int joint, int coefficient, double size,
                          std::vector<UnitMotion>& motions) {

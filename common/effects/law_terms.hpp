@@ -28,6 +28,8 @@ CoefficientLabel motion_label(const Robot& robot, int joint, const std::string& 
 /// "rad_per_nm" ("m_per_n"), or "STEM_rad_per_nm": the joint's motion by its load.
 CoefficientLabel compliance_label(const Robot& robot, int joint, const std::string& stem = "");
 
+/// So many significant digits, fewer where the last are 0.
+std::string significant_text(double value, int count);
 /// Three significant digits; whole numbers from 100 on.
 std::string rounded_text(double value);
 /// "0.5 mrad (103 arcsec)".

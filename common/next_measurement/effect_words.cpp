@@ -12,6 +12,7 @@
 
 #include "effects/law_terms.hpp"
 #include "effects/weight_parts.hpp"
+#include "kinematics/units.hpp"
 #include "next_measurement/next_measurement.hpp"
 
 namespace demecal::inline next_measurement {
@@ -64,6 +65,8 @@ std::string to_string(const Effect& effect) {
   if (!effect.form.empty() && effect.form != forms.front()) details.push_back(effect.form);
   for (const auto& [name, value] : effect.settings) {
     if (name == "from") details.push_back("from joint " + rounded_text(value));
+    if (name == "per_turn") details.push_back(rounded_text(value) + " per turn");
+    if (name == "at_rad") details.push_back("at " + significant_text(degrees(value), 4) + " deg");
     if (name == "ratio" || name == "order") details.push_back(name + ' ' + rounded_text(value));
   }
   if (const std::string masses = masses_words(settings_in_use(effect)); !masses.empty()) {

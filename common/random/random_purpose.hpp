@@ -22,6 +22,7 @@ enum class RandomPurpose : std::uint64_t {
   explanation_search = 34,   ///< variations of sets of effects
   planned_poses = 35,        ///< poses that a plan chooses among, and its way
   workspace_places = 36,     ///< where a model's error over its workspace is predicted
+  last_resort = 37,          ///< draws of the noise behind effects that are tried only where all others left structure
   distal_sequence = 406,     ///< distal learning, one joint at a time
   structure_search = 0x5354525543,
 };

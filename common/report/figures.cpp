@@ -42,7 +42,7 @@ std::string in_number(std::ptrdiff_t count, const char* one, const char* several
 }
 
 /// Settings that tell effects of one kind and joint apart.
-constexpr std::array<const char*, 3> kTelling{"ratio", "order", "from"};
+constexpr std::array<const char*, 4> kTelling{"ratio", "order", "per_turn", "from"};
 
 /// The form, where it is not the one that a kind without words for it has.
 std::string unusual_form(const EffectEntry& effect) {

@@ -11,7 +11,9 @@
 #include <functional>
 #include <initializer_list>
 #include <iterator>
+#include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,39 +35,40 @@ namespace demecal::inline report {
 namespace {
 
 constexpr double kMostIncrease = 0.05;  ///< of the error, by the short forms of all joints together
-constexpr std::size_t kMostFormNodes = 20;
+constexpr double kMostIncreaseByLonger = 0.02;
+constexpr std::size_t kShortNodes = 20, kMostFormNodes = 30;
 constexpr int kHighestWave = 5, kFewestDigits = 2, kMostDigits = 4;
 constexpr double kNearCorrection = 0.5;  ///< of the correction's size: a form that differs by more is not tried
 constexpr std::size_t kMostJudgingPoses = 300;
 
 /// Waves by their cycles a turn, and whether there are a slope and an offset.
 struct Shape {
-  std::vector<int> waves{};
+  std::vector<double> waves{};
   bool slope = false, offset = false;
 
   std::size_t nodes() const {
     std::size_t count = offset ? 1 : 0, parts = offset ? 1 : 0;
-    for (const int wave : waves) count += wave == 1 ? 6 : 8, ++parts;
+    for (const double wave : waves) count += wave == 1.0 ? 6 : 8, ++parts;
     if (slope) count += 5, ++parts;
     return count + parts - 1;
   }
 };
 
 std::vector<Shape> shapes() {
-  std::vector<std::vector<int>> sets{{}};
+  std::vector<std::vector<double>> sets{{}};
   for (int first = 1; first <= kHighestWave; ++first) {
-    sets.push_back({first});
-    for (int second = first + 1; second <= kHighestWave; ++second) sets.push_back({first, second});
+    sets.push_back({static_cast<double>(first)});
+    for (int second = first + 1; second <= kHighestWave; ++second)
+      sets.push_back({static_cast<double>(first), static_cast<double>(second)});
   }
   std::vector<Shape> all;
-  for (const std::vector<int>& waves : sets) {
+  for (const std::vector<double>& waves : sets) {
     for (const auto& [slope, offset] : {std::pair{false, false}, std::pair{false, true}, std::pair{true, false}}) {
       const Shape shape{waves, slope, offset};
       if (waves.empty() && !slope && !offset) continue;
       if (shape.nodes() <= kMostFormNodes) all.push_back(shape);
     }
   }
-  std::ranges::stable_sort(all, {}, &Shape::nodes);
   return all;
 }
 
@@ -96,17 +99,18 @@ struct Sum {
   std::string text{};
   std::string angle;  ///< what the text calls the joint's angle
 
-  void add_wave(int cycles, double cosine, double sine, int digits) {
+  void add_wave(double cycles, double cosine, double sine, int digits) {
     const double size_mrad = rounded_constant(1e3 * std::hypot(cosine, sine), digits);
-    double phase_deg = degrees_with_digits(std::atan2(cosine, sine), digits);
-    const double sign = std::abs(phase_deg) > 90.0 ? -1.0 : 1.0;
-    if (sign < 0) phase_deg -= std::copysign(180.0, phase_deg);
+    double phase_rad = std::atan2(cosine, sine);
+    const double sign = std::abs(phase_rad) > 0.5 * std::numbers::pi ? -1.0 : 1.0;
+    if (sign < 0) phase_rad -= std::copysign(std::numbers::pi, phase_rad);
+    const double phase_deg = degrees_with_digits(phase_rad, digits);
     Tree turned = variable_tree(0);
-    if (cycles > 1) turned = apply(Primitive::multiply, constant_tree(cycles), turned);
+    if (cycles != 1.0) turned = apply(Primitive::multiply, constant_tree(cycles), turned);
     turned = apply(Primitive::add, turned, constant_tree(radians(phase_deg)));
     formula = sum_with(
         formula, apply(Primitive::multiply, constant_tree(1e-3 * sign * size_mrad), apply(Primitive::sine, turned)));
-    const std::string argument = (cycles > 1 ? std::to_string(cycles) + " " : "") + angle;
+    const std::string argument = (cycles == 1.0 ? "" : fmt::format("{} ", cycles)) + angle;
     text = plus(text, sign, fmt::format("{} mrad sin({})", size_mrad, shifted_name(argument, phase_deg)));
   }
   /// `slope` is in mrad per rad, zero at `zero_rad`.
@@ -125,8 +129,8 @@ struct Sum {
   }
 };
 
-/// Coefficients of a shape: cosine and sine of every wave, then slope, then offset.
-Eigen::VectorXd fitted_coefficients(const Shape& shape, const Eigen::VectorXd& angles, const Eigen::VectorXd& values) {
+/// The shape's columns: cosine and sine of every wave, then slope, then offset.
+Eigen::MatrixXd columns_of_shape(const Shape& shape, const Eigen::VectorXd& angles) {
   const auto waves = static_cast<Eigen::Index>(shape.waves.size());
   const bool constant = shape.slope || shape.offset;
   Eigen::MatrixXd columns(angles.size(), 2 * waves + (shape.slope ? 1 : 0) + (constant ? 1 : 0));
@@ -137,7 +141,44 @@ Eigen::VectorXd fitted_coefficients(const Shape& shape, const Eigen::VectorXd& a
   }
   if (shape.slope) columns.col(2 * waves) = angles;
   if (constant) columns.rightCols(1).setOnes();
+  return columns;
+}
+
+/// Shapes with waves of any half number of cycles, each the one that leaves least beside those before.
+std::vector<Shape> pursued_shapes(const Eigen::VectorXd& angles, const Eigen::VectorXd& values) {
+  constexpr double kHighestCycles = 20.0, kStep = 0.5;
+  const double range_rad = angles.maxCoeff() - angles.minCoeff();
+  std::vector<Shape> all;
+  for (const bool slope : {false, true}) {
+    Shape shape{.slope = slope, .offset = !slope};
+    while (true) {
+      double least = std::numeric_limits<double>::infinity(), best = 0.0;
+      shape.waves.push_back(0.0);
+      // A wave of which the range holds less than half is a slope or an offset once more.
+      for (double cycles = kStep; cycles <= kHighestCycles; cycles += kStep) {
+        if (cycles * range_rad < std::numbers::pi) continue;
+        shape.waves.back() = cycles;
+        const Eigen::MatrixXd columns = columns_of_shape(shape, angles);
+        const double left = (values - columns * PivotedQr(columns).solve(values)).norm();
+        if (left < least) least = left, best = cycles;
+      }
+      shape.waves.back() = best;
+      if (best == 0.0 || shape.nodes() > kMostFormNodes) break;
+      all.push_back(shape);
+    }
+  }
+  return all;
+}
+
+/// Coefficients of a shape, in the order of its columns; none where it is far from the correction, or comes to it by
+/// waves much larger than it.
+Eigen::VectorXd fitted_coefficients(const Shape& shape, const Eigen::VectorXd& angles, const Eigen::VectorXd& values) {
+  constexpr double kMostOverCorrection = 3.0;
+  const Eigen::MatrixXd columns = columns_of_shape(shape, angles);
   const Eigen::VectorXd coefficients = PivotedQr(columns).solve(values);
+  const double largest = kMostOverCorrection * values.cwiseAbs().maxCoeff();
+  for (std::size_t i = 0; i < shape.waves.size(); ++i)
+    if (coefficients.segment<2>(2 * static_cast<Eigen::Index>(i)).norm() > largest) return {};
   const double left = (values - columns * coefficients).norm();
   return left < kNearCorrection * values.norm() ? coefficients : Eigen::VectorXd();
 }
@@ -145,7 +186,7 @@ Eigen::VectorXd fitted_coefficients(const Shape& shape, const Eigen::VectorXd& a
 Sum rounded_sum(const Shape& shape, const Eigen::VectorXd& coefficients, const std::string& angle, int digits) {
   Sum sum{.angle = angle};
   Eigen::Index at = 0;
-  for (const int cycles : shape.waves) {
+  for (const double cycles : shape.waves) {
     sum.add_wave(cycles, coefficients[at], coefficients[at + 1], digits);
     at += 2;
   }
@@ -166,7 +207,8 @@ class Shortening {
 
  private:
   double left(const CorrectedRobot& robot) const { return sum(judging_.squared_errors(robot)); }
-  std::optional<ShortForm> shortest(std::size_t joint, double most);
+  /// `share`: of what all forms may add to the error.
+  std::optional<ShortForm> shortest(std::size_t joint, double share);
 
   const DataSet& data_;
   CorrectedRobot robot_;  ///< with the short forms so far
@@ -174,7 +216,7 @@ class Shortening {
   double square_;
 };
 
-std::optional<ShortForm> Shortening::shortest(std::size_t joint, double most) {
+std::optional<ShortForm> Shortening::shortest(std::size_t joint, double share) {
   const JointCorrection present = robot_.corrections[joint];
   const std::vector<std::size_t> poses = poses_of(data_, PoseSet::calibration);
   Eigen::VectorXd angles(std::ssize(poses)), values(std::ssize(poses));
@@ -184,13 +226,18 @@ std::optional<ShortForm> Shortening::shortest(std::size_t joint, double most) {
     values[static_cast<Eigen::Index>(i)] = present(theta);
   }
   const std::string angle = "q" + std::to_string(joint + 1);
-  for (const Shape& shape : shapes()) {
+  std::vector<Shape> tried = shapes();
+  std::ranges::move(pursued_shapes(angles, values), std::back_inserter(tried));
+  std::ranges::stable_sort(tried, {}, &Shape::nodes);
+  for (const Shape& shape : tried) {
     const Eigen::VectorXd coefficients = fitted_coefficients(shape, angles, values);
     if (coefficients.size() == 0 || !coefficients.allFinite()) continue;
+    const double increase = share * (shape.nodes() <= kShortNodes ? kMostIncrease : kMostIncreaseByLonger);
     for (int digits = kFewestDigits; digits <= kMostDigits; ++digits) {
       const Sum sum = rounded_sum(shape, coefficients, angle, digits);
       robot_.corrections[joint] = JointCorrection(sum.formula, present.branch(), present.range_rad());
-      if (left(robot_) <= most) return ShortForm{sum.text, sum.formula.size(), robot_.corrections[joint]};
+      if (left(robot_) <= std::pow(1.0 + increase, 2) * square_)
+        return ShortForm{sum.text, sum.formula.size(), robot_.corrections[joint]};
     }
   }
   robot_.corrections[joint] = present;
@@ -205,8 +252,7 @@ std::vector<std::optional<ShortForm>> Shortening::run() {
   for (std::size_t joint = 0; joint < forms.size(); ++joint) {
     if (robot_.corrections[joint].is_neutral() || !is_revolute(robot_.chain, static_cast<int>(joint))) continue;
     // Of what all may add, the first joints take no more than their share.
-    const double increase = 1.0 + kMostIncrease * ++done / static_cast<double>(corrected);
-    forms[joint] = shortest(joint, increase * increase * square_);
+    forms[joint] = shortest(joint, ++done / static_cast<double>(corrected));
   }
   return forms;
 }

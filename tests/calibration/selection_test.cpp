@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
 #include "erring_arm.hpp"
 #include "prediction/measurement.hpp"
@@ -95,6 +96,19 @@ TEST(Selection, CorrectionsFromElsewhereCompeteAndBelongTogether) {
   EXPECT_EQ(selection.robot.corrections[1].formula(), joints[0].alternatives[0].formula());
   EXPECT_EQ(selection.robot.corrections[2].formula(), joints[1].alternatives[0].formula());
   EXPECT_EQ(selection.choices[0].candidates, 3U);
+}
+
+TEST(NegligibleCorrections, AreTermsBelowAMicroradian) {
+  const DataSet data = measure(true_puma({"", "", "", "", "", ""}), 20, 5e-5, 1, false);
+  CorrectedRobot robot = nominal_robot(data);
+  const auto kept = [&](const char* text) {
+    robot.corrections[1] = {parse(text), {}, {-1.0, 2.0}};
+    return without_negligible_corrections(data, robot).corrections[1];
+  };
+  EXPECT_EQ(kept("4e-7 * theta + 0.001 * SIN(theta) - 9e-7").formula(), parse("0.001 * SIN(theta)"));
+  EXPECT_EQ(kept("0.001 * SIN(theta) - 6e-7 * theta").formula(), parse("0.001 * SIN(theta) - 6e-7 * theta"));
+  EXPECT_EQ(kept("5e-7 - 0.001 * theta").formula(), parse("(-1) * (0.001 * theta)"));
+  EXPECT_TRUE(kept("5e-7 - 4e-7 * theta").is_neutral());
 }
 
 TEST(GrossErrors, AreLeftOutOfTheSetTheyAreIn) {

@@ -112,15 +112,15 @@ TEST(ModelFile, WithoutKnownCoefficientsReadsThemAsZero) {
   EXPECT_EQ(written_and_read(model).robot.effects[0].values, (std::vector<double>{0.0, 0.0}));
 }
 
-TEST(ModelFile, HoldsASpringThatIsShortestAtAnyAngle) {
+TEST(ModelFile, HoldsSpringsAndJumpsAtAnyAngle) {
   RandomStream stream{77};
   CalibratedModel model = random_model(stream);
-  for (const double shortest_rad : {-1.5, 0.0, 2.0}) {
-    model.robot.effects = {{.kind = "balancer",
-                            .joint = 1,
-                            .settings = {{"fixed_m", 0.25}, {"moving_m", 0.4}, {"shortest_rad", shortest_rad}},
-                            .values = {1e-4, 2e-5}}};
-    EXPECT_EQ(written_and_read(model).robot.effects.at(0).setting("shortest_rad"), shortest_rad);
+  for (const double at_rad : {-1.5, 0.0, 2.0}) {
+    const std::map<std::string, double> spring{{"fixed_m", 0.25}, {"moving_m", 0.4}, {"shortest_rad", at_rad}};
+    model.robot.effects = {{.kind = "balancer", .joint = 1, .settings = spring, .values = {1e-4, 2e-5}},
+                           {.kind = "jump", .joint = 1, .settings = {{"at_rad", at_rad}}, .values = {1e-4}}};
+    EXPECT_TRUE(written_and_read(model).robot.effects.at(0).same_law_as(model.robot.effects[0]));
+    EXPECT_TRUE(written_and_read(model).robot.effects.at(1).same_law_as(model.robot.effects[1]));
   }
 }
 

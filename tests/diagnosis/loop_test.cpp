@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+#include "effects/catalogue.hpp"
 #include "simulated_arm.hpp"
 
 namespace demecal {
@@ -133,6 +134,8 @@ TEST(ClosedLoop, WithEvolutionOffersNoWorseModelOfAnyNumberOfCauses) {
   scenario.backlash = {{1, 5e-4}, {2, 3e-4}};
   const DataSet data = simulate(scenario);
   LoopOptions options = quick();
+  for (const EffectLaw* law : catalogue())  // with jumps among them eight causes are chosen
+    if (!law->is_last_resort()) options.kinds.emplace_back(law->kind());
   const LoopResult with = run_loop(data, kZeroed, options);
   options.explanations.variations = 0;
   const LoopResult without = run_loop(data, kZeroed, options);

@@ -60,8 +60,8 @@ TEST(Catalogue, KnowsTheWordsOfTheReportsInTheirOrder) {
   for (const EffectLaw* law : catalogue()) kinds.push_back(law->kind());
   EXPECT_THAT(kinds,
               ElementsAre("registration", "tool", "joint_offset", "geometry", "gain", "eccentricity", "gear_harmonic",
-                          "compliance", "balancer", "link_bending", "coupling", "backlash", "hysteresis", "axis_wobble",
-                          "thermal_offset", "thermal_length", "drift", "sensor_scale", "symbolic"));
+                          "compliance", "balancer", "link_bending", "coupling", "jump", "backlash", "hysteresis",
+                          "axis_wobble", "thermal_offset", "thermal_length", "drift", "sensor_scale", "symbolic"));
   for (const EffectLaw* law : catalogue()) EXPECT_EQ(find_law(law->kind()), law);
   EXPECT_EQ(find_law("weather"), nullptr);
 }
@@ -157,6 +157,7 @@ TEST(Catalogue, DependsOnJointsOnlyWhereItSaysSo) {
   EXPECT_THAT(ranged({.kind = "gear_harmonic", .joint = 3}), ElementsAre(3));
   EXPECT_THAT(ranged({.kind = "eccentricity", .joint = 3}), ElementsAre(3));
   EXPECT_THAT(ranged({.kind = "axis_wobble", .joint = 3}), ElementsAre(3));
+  EXPECT_THAT(ranged({.kind = "jump", .joint = 3}), ElementsAre(3));
   EXPECT_THAT(ranged({.kind = "coupling", .joint = 3, .settings = {{"from", 2}}}), ElementsAre(1));
   EXPECT_THAT(
       ranged({.kind = "symbolic", .joint = 3, .formula = parse("q6 * tau + q1 % s", symbolic_variables(robot.chain))}),
@@ -219,7 +220,7 @@ TEST(Catalogue, FormulasNameTheJointAndEveryValue) {
     }
     EXPECT_THAT(formula, HasSubstr(" = "));
     EXPECT_EQ(formula.find('\n'), std::string::npos);
-    const double scale = effect.kind == "backlash" ? 0.5 : 1.0;
+    const double scale = effect.kind == "backlash" || effect.kind == "jump" ? 0.5 : 1.0;
     for (const double value : effect.values) {
       std::ostringstream text;
       text << scale * std::abs(value);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 #include <set>
@@ -202,6 +203,42 @@ TEST(GearHarmonics, AreTriedAtTheLinesOfAStatedGearAndNamedByIt) {
   EXPECT_NE(said(60.0).find("as its pins pass"), std::string::npos) << said(60.0);
   gear.reset();
   EXPECT_NE(said(60.0).find("a gear stage."), std::string::npos) << said(60.0);
+}
+
+TEST(UnitMotions, OfAJumpGoHalfItsHeightToEitherSide) {
+  RandomStream stream{31, 40};
+  const Robot robot = laden_arm(stream, Arm::standard);
+  const auto size_at = [&](const Effect& effect, double q2_rad) {
+    Stop stop = random_stop(stream, robot);
+    stop.joints[1] = q2_rad;
+    std::vector<UnitMotion> motions;
+    law_of(effect).unit_motions(effect, robot, arm_state(robot, stop), motions);
+    return motions.empty() ? 0.0 : motions.at(0).size;
+  };
+  const Effect step{.kind = "jump", .joint = 1, .settings = {{"at_rad", -0.3}}};
+  EXPECT_EQ(size_at(step, -0.31), -0.5);
+  EXPECT_EQ(size_at(step, -0.3), 0.0);
+  EXPECT_EQ(size_at(step, 2.0), 0.5);
+  const Effect square{
+      .kind = "jump", .joint = 1, .settings = {{"at_rad", 0.2}, {"per_turn", 4}}, .form = "square_wave"};
+  const double half_rad = std::numbers::pi / 4.0;
+  for (int half = -3; half <= 3; ++half)
+    EXPECT_EQ(size_at(square, 0.2 + (half + 0.5) * half_rad), half % 2 == 0 ? 0.5 : -0.5) << half;
+}
+
+TEST(FinerProposals, LieBetweenThoseNextToIt) {
+  RandomStream stream{31, 41};
+  const Robot robot = laden_arm(stream, Arm::standard);
+  const Evidence evidence = full_evidence(robot);
+  const EffectLaw& law = *find_law("jump");
+  const std::vector<Effect> proposals = law.proposals(robot, evidence);
+  const Effect& before = proposals.at(3);
+  const std::vector<Effect> finer = law.finer_proposals(before, evidence);
+  const double apart = proposals.at(4).setting("at_rad") - before.setting("at_rad");
+  EXPECT_NEAR(finer.front().setting("at_rad"), before.setting("at_rad") - apart, 1e-12);
+  EXPECT_NEAR(finer.back().setting("at_rad"), proposals.at(4).setting("at_rad"), 1e-12);
+  EXPECT_TRUE(std::ranges::any_of(finer, [&](const Effect& one) { return one.same_law_as(before); }));
+  EXPECT_TRUE(find_law("gear_harmonic")->finer_proposals({.kind = "gear_harmonic", .joint = 1}, evidence).empty());
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ std::map<std::string, std::string> law_files(const std::vector<Source>& tree) {
   return files;
 }
 
-/// Rooms where a tool is what robot programs call so.
+/// Rooms where tools and jumps are what robot programs call so.
 const std::set<std::string> kRoomsOfPrograms{"common/languages", "common/kuka_abb_ur", "common/staubli_kawasaki",
                                              "common/programs"};
 
@@ -45,7 +45,7 @@ bool means_something_else(const std::string& kind, const std::string& path) {
       {"common/updating/change.cpp", {"registration"}}};                // a verdict
   const auto words = elsewhere.find(path);
   const std::string room = path.substr(0, path.rfind('/'));
-  const bool of_a_robot_language = kind == "tool" && kRoomsOfPrograms.contains(room);
+  const bool of_a_robot_language = (kind == "tool" || kind == "jump") && kRoomsOfPrograms.contains(room);
   return of_a_robot_language || (words != elsewhere.end() && words->second.contains(kind));
 }
 

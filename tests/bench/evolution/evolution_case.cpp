@@ -4,16 +4,22 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <iterator>
+#include <span>
 #include <utility>
 
+#include "calibration/calibration.hpp"
 #include "calibration/job.hpp"
+#include "calibration/training.hpp"
 #include "closed_loop/case_plan.hpp"
 #include "closed_loop/draw_truth.hpp"
 #include "closed_loop/scene.hpp"
 #include "closed_loop/score.hpp"
 #include "closed_loop/truth.hpp"
 #include "diagnosis/loop.hpp"
+#include "expression/evaluate.hpp"
 #include "prediction/measurement.hpp"
+#include "report/make_report.hpp"
 #include "simulation/scenario.hpp"
 #include "workflows/workflows.hpp"
 
@@ -77,6 +83,52 @@ class Naming {
   const std::vector<ArmState>& states_;
 };
 
+/// The largest value of every term of a sum over an interval, by a grid.
+std::vector<double> sizes_of_terms(std::span<const Node> sum, const Interval& range_rad) {
+  if (sum.front().primitive == Primitive::add || sum.front().primitive == Primitive::subtract) {
+    const std::size_t second = subtree_end(sum, 1);
+    std::vector<double> sizes = sizes_of_terms(sum.subspan(1, second - 1), range_rad);
+    std::ranges::copy(sizes_of_terms(sum.subspan(second), range_rad), std::back_inserter(sizes));
+    return sizes;
+  }
+  constexpr int kGrid = 512;
+  double largest = 0.0;
+  for (int i = 0; i <= kGrid; ++i) {
+    const double theta = std::lerp(range_rad.lower, range_rad.upper, static_cast<double>(i) / kGrid);
+    largest = std::max(largest, std::abs(evaluate(sum, std::span(&theta, 1))));
+  }
+  return {largest};
+}
+
+CorrectionFigures correction_figures(const DataSet& data, const Job& job, const CalibrateResult& result) {
+  CorrectionFigures figures;
+  CorrectedRobot shortened = result.model.robot;
+  if (!has_corrections(shortened)) return figures;
+  const std::vector<std::optional<ShortForm>> forms = short_forms(data, shortened);
+  for (std::size_t joint = 0; joint < shortened.corrections.size(); ++joint) {
+    JointCorrection& correction = shortened.corrections[joint];
+    if (correction.is_neutral()) continue;
+    ++figures.joints;
+    figures.most_nodes = std::max(figures.most_nodes, correction.formula().size());
+    figures.least_term_rad = std::min(figures.least_term_rad,
+                                      std::ranges::min(sizes_of_terms(correction.formula(), correction.range_rad())));
+    if (!forms[joint]) continue;
+    ++figures.shortened;
+    correction = forms[joint]->correction;
+  }
+  const auto accept = poses_of(data, PoseSet::accept);
+  figures.accept_with_short_forms =
+      error_figures(shortened, data, accept).rms_mm / error_figures(result.model.robot, data, accept).rms_mm;
+  const JointTargets targets = targets_about(data, prepare(data, job), result.model.robot);
+  for (const JointTraining& training : training_tables(result.model.robot.chain, targets)) {
+    const JointSummary& joint = result.calibration.joints[training.joint];
+    if (joint.kept)
+      figures.most_bound_over_limit =
+          std::max(figures.most_bound_over_limit, joint.bound_rad / correction_limit_rad(training));
+  }
+  return figures;
+}
+
 EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, std::uint64_t seed, bool evolve,
                            const std::vector<Effect>& truths) {
   Job job;
@@ -95,6 +147,7 @@ EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
   figures.effects = robot.effects.size();
   figures.validation_mm = result.calibration.unseen ? result.calibration.unseen->after_mm : 0.0;
   figures.accept_mm = error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
+  figures.corrections = correction_figures(data, job, result);
   if (truths.empty()) return figures;
   const std::vector<ArmState> states = states_of(data, PoseSet::calibration);
   const Naming naming(robot, result.loop, data.robot, states);
@@ -102,6 +155,7 @@ EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
     if (!naming.names(truth)) figures.missed.push_back(words(truth, data.robot));
   for (const Effect& found : robot.effects)
     if (!naming.is_of(found, truths)) figures.false_effects.push_back(words(found, data.robot));
+  figures.outside_named = naming.names(truths.front());
   figures.true_causes_named = truths.size() - figures.missed.size();
   figures.is_exact_but_for_class = naming.is_exact_but_for_class(truths);
   return figures;
@@ -110,6 +164,7 @@ EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
 EvolutionCase compared(std::string name, const DataSet& data, const DeclaredModel& declared, std::uint64_t seed,
                        const std::vector<Effect>& truths) {
   return {.name = std::move(name),
+          .seed = seed,
           .true_causes = truths.size(),
           .without = diagnosed(data, declared, seed, false, truths),
           .with = diagnosed(data, declared, seed, true, truths)};
@@ -139,10 +194,12 @@ EvolutionCase run_measured(const std::string& name, const DataSet& data, const D
   return compared(name, data, declared, seed, {});
 }
 
-std::optional<EvolutionCase> run_simulated(int number, const Robot& robot) {
+Mixture varied_mixture(int number) {
+  return {.causes = static_cast<std::size_t>(3 + number / 6 % 4), .outside = number % 2 == 1};
+}
+
+std::optional<EvolutionCase> run_simulated(int number, const Mixture& mixture, const Robot& robot) {
   const std::uint64_t seed = kFirstSeed + static_cast<std::uint64_t>(number);
-  const auto wanted = static_cast<std::size_t>(3 + number / 6 % 4);
-  const bool outside = number % 2 == 1;
   const DeclaredModel& declared = row_of(kOutside).declared;
   Scenario scenario = varied_scene(seed, robot);
   const DataSet clean = measured(scenario);
@@ -156,17 +213,17 @@ std::optional<EvolutionCase> run_simulated(int number, const Robot& robot) {
   const auto just = [&](const NotFound& measure, const Effect& effect) { return limit.detectable(measure, effect); };
   RandomStream random{seed, kTruth};
   std::vector<Effect> truths;
-  for (const std::string& kind : drawn_kinds(outside, random)) {
-    if (truths.size() == wanted) break;
+  for (const std::string& kind : drawn_kinds(mixture.outside, random)) {
+    if (truths.size() == mixture.causes) break;
     if (auto truth =
             draw_truth(kind, twin.outcome.not_found, robot, states_of(clean, PoseSet::calibration), just, random))
       truths.push_back(std::move(*truth));
   }
-  if (truths.size() < wanted) return std::nullopt;
+  if (truths.size() < mixture.causes) return std::nullopt;
   for (const Effect& truth : truths) inject(scenario, truth);
   EvolutionCase result =
       compared(robot.name + " " + std::to_string(number), measured(scenario), declared, seed, truths);
-  result.outside = outside;
+  result.outside = is_symbolic(truths.front());
   return result;
 }
 
