@@ -28,13 +28,13 @@ Scan scan_of(const std::vector<Candidate>& candidates, const EffectColumns& colu
   return {columns, naming_costs_nats(candidates), linearization.fitted, linearization.projection, search.do_work};
 }
 
-/// Of neighbours the middle one of those that follow the best and gain as much.
-std::size_t middle_of_best(const std::vector<Score>& scores) {
+/// The first and the last of neighbours that gain as much as the best.
+std::pair<std::size_t, std::size_t> best_neighbours(const std::vector<Score>& scores) {
   constexpr double kSame_nats = 1e-6;
   const auto best = std::ranges::max_element(scores, {}, &Score::gain_nats);
   auto end = best;
   while (end != scores.end() && end->gain_nats > best->gain_nats - kSame_nats) ++end;
-  return static_cast<std::size_t>(best - scores.begin() + (end - best) / 2);
+  return {best - scores.begin(), end - scores.begin() - 1};
 }
 
 /// An effect at the best of its finer proposals, and what it gains there.
@@ -51,8 +51,8 @@ Placed at_best_place(const Effect& effect, const LastResort& search, const Linea
   }
   const EffectColumns columns = columns_tried(finer, search, linearization);
   const std::vector<Score> scores = scan_of(finer, columns, search, linearization).scores();
-  const std::size_t place = middle_of_best(scores);
-  return {std::move(finer[place].effect), scores[place].gain_nats};
+  const auto [first, last] = best_neighbours(scores);
+  return {law_of(effect).between(finer[first].effect, finer[last].effect), scores[first].gain_nats};
 }
 
 std::vector<Candidate> best_of_joints(const LastResort& search, const Linearization& linearization,

@@ -25,7 +25,7 @@ struct LastResort {
 };
 
 /// Adds to `known` of every joint the effect that explains most of what the model leaves, and of what its harmonics
-/// were added for, many of which it takes to write a jump: at the middle of those of its finer proposals that explain
+/// were added for, many of which it takes to write a jump: between those of its finer proposals that explain
 /// the same and most, at the price of naming it among all that were tried. Of no joint whose best proposal explains
 /// less than a tenth of the sum of squares (of what many small causes leave, some jump always explains a little), nor
 /// where noise alone explains as much more often than `family_error`. Whether anything is new.

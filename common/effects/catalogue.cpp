@@ -74,7 +74,7 @@ const std::vector<CatalogueLine>& catalogue_lines() {
       {&balancer_law(), CauseGroup::balance_spring, 10, kLast, "the balancer's pull", 0.02, 0.02},
       {&link_bending_law(), CauseGroup::elasticity, 11, 7, "bending of the link", 0.02, 0.02},
       {&coupling_law(), CauseGroup::transmission, 12, 4, "coupling to another joint", 0.02, 0.02},
-      {&jump_law(), CauseGroup::transmission, 17, kLast, "a jump", 0.005, 0.005},
+      {&jump_law(), CauseGroup::encoder, 17, kLast, "a jump", 0.005, 0.005},
       {&backlash_law(), CauseGroup::lost_motion, 6, 0, "backlash", 0.005, 0.005},
       {&hysteresis_law(), CauseGroup::lost_motion, 9, 3, "friction hysteresis", 0.005, 0.005},
       {&axis_wobble_law(), CauseGroup::bearing, 13, 6, "wobble of the axis", 0.005, 0.005},

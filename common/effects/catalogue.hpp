@@ -12,6 +12,7 @@ namespace demecal::inline effects {
 /// What engineers count as one cause, however many effects it takes to describe it; of each joint, or of the whole arm.
 enum class CauseGroup {
   transmission,
+  encoder,
   lost_motion,
   elasticity,
   balance_spring,

@@ -118,6 +118,8 @@ class EffectLaw {
   virtual std::vector<Effect> finer_proposals(const Effect& /*effect*/, const Evidence& /*evidence*/) const {
     return {};
   }
+  /// The effect that stands for the finer proposals from one to another, which data do not tell apart.
+  virtual Effect between(const Effect& first, const Effect& /*last*/) const { return first; }
   /// Whether its effects are tried only where all others left structure: so many are proposed, and so seldom one is.
   virtual bool is_last_resort() const { return false; }
   /// What data must hold for it to be seen.
@@ -158,6 +160,9 @@ class EffectLaw {
   virtual bool fades(const Effect& /*effect*/) const { return false; }
   /// Of a motion of its joint by one joint's value alone; nothing of others.
   virtual std::optional<HeldMotion> held_motion(const Effect& /*effect*/) const { return std::nullopt; }
+  /// By how much what it adds to its own joint's motion may be off with the joint there, since the poses did not tell
+  /// where it changes; rad or m.
+  virtual double unsure_motion(const Effect& /*effect*/, double /*joint*/) const { return 0.0; }
   /// The joints whose value it depends on and beyond whose measured range it is not known.
   virtual std::vector<int> ranged_joints(const Effect& /*effect*/, const Robot& /*robot*/) const { return {}; }
   /// Appends the unit motions as expressions of the joints (effects/symbolic_state.hpp); nothing where the effect

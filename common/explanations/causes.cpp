@@ -22,11 +22,14 @@ struct GroupWords {
   std::string_view advice;
 };
 
-constexpr std::array<GroupWords, 11> kGroups{{
+constexpr std::array<GroupWords, 12> kGroups{{
     {CauseGroup::transmission, "transmission", "gears", "",
      "Corrected targets compensate it. Where it is more than the gear's maker states as running error, have its "
      "mounting "
      "and wear checked."},
+    {CauseGroup::encoder, "encoder", "encoder", "",
+     "Have the joint's encoder or resolver, and how it is mounted, checked. Corrected targets compensate it, except "
+     "close to a jump: which side of it a joint stops at is not known there."},
     {CauseGroup::lost_motion, "lost_motion", "lost motion", "",
      "Approach targets from the side they were measured from, or correct programs with their approach known. Where it "
      "grows, have the play of the gear and the brake checked."},

@@ -118,6 +118,11 @@ class StopWidening {
       return measured + ", where its motion may be off by " + with_decimals(1e3 * off_by, 2) +
              (turns ? " mrad" : " mm");
     });
+    if (const double unsure = add_unsure(static_cast<int>(joint)); unsure > 0.0)
+      widening_.reasons.push_back({subject,
+                                   subject + at() + ", where it jumps by " + with_decimals(1e3 * unsure, 2) +
+                                       (turns ? " mrad" : " mm") + ": on which side it is, the poses did not tell",
+                                   0.0, 0.0});
     const auto gaps = measured_.gaps.find(static_cast<int>(joint));
     if (gaps == measured_.gaps.end()) return;
     for (const Interval& gap : gaps->second)
@@ -125,21 +130,40 @@ class StopWidening {
           [&] { return at() + ", measured nowhere in " + range_words(gap, unit); });
   }
 
-  /// What is held where the joint stands so far outside; by how much its own motion may be off: two standard
-  /// deviations.
+  /// A joint's motion that may be off: two standard deviations.
+  struct OffBy {
+    int joint;
+    double most;
+  };
+
+  /// What is held where the joint stands so far outside; by how much its own motion may be off.
   double add_held(int of_joint, double outside) {
-    const std::vector<HeldPart> parts = held_parts(robot_, of_joint);
-    if (parts.empty()) return 0.0;
+    std::vector<OffBy> held;
+    for (const HeldPart& part : held_parts(robot_, of_joint)) held.push_back({part.joint, part.off_by(outside)});
+    return add_off_by(held, of_joint);
+  }
+
+  /// What jumps where the joint may stand on either side; by how much its own motion may be off.
+  double add_unsure(int joint) {
+    std::vector<OffBy> unsure;
+    for (const Effect& effect : robot_.effects)
+      if (effect.joint == joint)
+        if (const double most = law_of(effect).unsure_motion(effect, stop_.joints[joint]); most > 0.0)
+          unsure.push_back({joint, most});
+    return add_off_by(unsure, joint);
+  }
+
+  double add_off_by(const std::vector<OffBy>& motions, int of_joint) {
+    if (motions.empty()) return 0.0;
     const Eigen::Vector3d tool_m = robot_.tool(own_target()).translation();
     const Jacobian drives = differential_kinematics(robot_.chain, robot_.actual_joints(stop_), tool_m).drives;
     const Eigen::Matrix3d& base = robot_.sensor_from_base.linear();
     double own_square = 0.0;
-    for (const HeldPart& part : parts) {
-      const double off_by = part.off_by(outside);
-      if (part.joint == of_joint) own_square += off_by * off_by;
+    for (const auto& [joint, most] : motions) {
+      if (joint == of_joint) own_square += most * most;
       Eigen::Matrix<double, 6, 1> motion;
-      motion << base * drives.col(part.joint).head<3>(), base * drives.col(part.joint).tail<3>();
-      motion *= off_by / kCoverageFactor;
+      motion << base * drives.col(joint).head<3>(), base * drives.col(joint).tail<3>();
+      motion *= most / kCoverageFactor;
       widening_.held_covariance += motion * motion.transpose();
     }
     return std::sqrt(own_square);

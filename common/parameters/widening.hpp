@@ -32,7 +32,7 @@ struct WideningReason {
 struct Widening {
   double factor = 1.0;  ///< by which the model's part of an error is taken to be larger
   /// Beside that, of the tool's position and turn (m, rad; measurements' frame): by what corrections and effects may be
-  /// off that are held at the ends of measured ranges.
+  /// off that are held at the ends of measured ranges, or jump where the poses did not tell.
   Eigen::Matrix<double, 6, 6> held_covariance = Eigen::Matrix<double, 6, 6>::Zero();
   double unstated_m = 0.0;  ///< how far the tool may stand from its prediction by what the stop does not state
   std::vector<WideningReason> reasons{};

@@ -237,7 +237,12 @@ TEST(FinerProposals, LieBetweenThoseNextToIt) {
   const double apart = proposals.at(4).setting("at_rad") - before.setting("at_rad");
   EXPECT_NEAR(finer.front().setting("at_rad"), before.setting("at_rad") - apart, 1e-12);
   EXPECT_NEAR(finer.back().setting("at_rad"), proposals.at(4).setting("at_rad"), 1e-12);
-  EXPECT_TRUE(std::ranges::any_of(finer, [&](const Effect& one) { return one.same_law_as(before); }));
+  EXPECT_TRUE(
+      std::ranges::any_of(finer, [&](const Effect& one) { return one.setting("at_rad") == before.setting("at_rad"); }));
+  const double part = finer.at(1).setting("at_rad") - finer.front().setting("at_rad");
+  const Effect between = law.between(finer.at(2), finer.at(6));
+  EXPECT_NEAR(between.setting("at_rad"), finer.at(4).setting("at_rad"), 1e-12);
+  EXPECT_NEAR(between.setting("within_rad"), 3.0 * part, 1e-12);  // the next on either side explain less
   EXPECT_TRUE(find_law("gear_harmonic")->finer_proposals({.kind = "gear_harmonic", .joint = 1}, evidence).empty());
 }
 

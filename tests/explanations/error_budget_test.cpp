@@ -49,7 +49,7 @@ TEST(Causes, HaveAWordAndAnAdviceForEveryKindOfTheCatalogue) {
     EXPECT_FALSE(to_string(cause).empty()) << law->kind();
     EXPECT_TRUE(advice_on(cause, robot).ends_with('.')) << law->kind();
   }
-  EXPECT_EQ(words.size(), 11U);
+  EXPECT_EQ(words.size(), 12U);
 }
 
 TEST(Causes, AreAdvisedOnInNoSentenceTwice) {

@@ -106,6 +106,38 @@ TEST(Widening, HoldsWhatACorrectionMayBeOffByOutside) {
   EXPECT_FALSE(arm.at(arm.inside).is_worth_flagging(1e-4));
 }
 
+TEST(Widening, HoldsAJumpWhereItsSideIsNotKnown) {
+  MeasuredArm arm;
+  arm.robot.effects.push_back({.kind = "jump",
+                               .joint = 1,
+                               .settings = {{"at_rad", -0.2}, {"within_rad", 0.01}},
+                               .form = "step",
+                               .values = {-1e-3}});
+  const auto at = [&](double q2_rad) {
+    Stop stop = arm.inside;
+    stop.joints[1] = q2_rad;
+    return arm.at(stop);
+  };
+  for (const double known : {-0.215, -0.185, 0.9}) EXPECT_EQ(at(known).held_radius_m(), 0.0) << known;
+  for (const double unknown : {-0.209, -0.2, -0.191}) {
+    Stop below = arm.inside, above = arm.inside;
+    below.joints[1] = unknown - 5e-4, above.joints[1] = unknown + 5e-4;  // a milliradian apart, on one side both
+    arm.robot.effects.back().values = {0.0};
+    const double apart_m =
+        (arm.robot.predict(above, "").translation() - arm.robot.predict(below, "").translation()).norm();
+    arm.robot.effects.back().values = {-1e-3};
+    EXPECT_NEAR(at(unknown).held_radius_m(), apart_m, 0.01 * apart_m) << unknown;
+    EXPECT_EQ(at(unknown).factor, 1.0);
+  }
+  EXPECT_THAT(
+      at(-0.2).sentences(),
+      ElementsAre("joint 2 at -11.5 deg, where it jumps by 1 mrad: on which side it is, the poses did not tell"));
+  arm.robot.effects.back().form = "square_wave";
+  arm.robot.effects.back().settings["per_turn"] = 4.0;
+  EXPECT_GT(at(-0.2 + 0.25 * std::acos(-1.0) + 0.009).held_radius_m(), 0.0);
+  EXPECT_EQ(at(-0.2 + 0.25 * std::acos(-1.0) + 0.011).held_radius_m(), 0.0);
+}
+
 TEST(Widening, HoldsWhateverWasMeasuredOfWhatIsNotStated) {
   const MeasuredArm arm;
   const auto tool_m = [&](const Stop& stop) -> Eigen::Vector3d { return arm.robot.predict(stop, "").translation(); };
