@@ -28,31 +28,57 @@ Scan scan_of(const std::vector<Candidate>& candidates, const EffectColumns& colu
   return {columns, naming_costs_nats(candidates), linearization.fitted, linearization.projection, search.do_work};
 }
 
-/// The first and the last of neighbours that gain as much as the best.
-std::pair<std::size_t, std::size_t> best_neighbours(const std::vector<Score>& scores) {
-  constexpr double kSame_nats = 1e-6;
-  const auto best = std::ranges::max_element(scores, {}, &Score::gain_nats);
-  auto end = best;
-  while (end != scores.end() && end->gain_nats > best->gain_nats - kSame_nats) ++end;
-  return {best - scores.begin(), end - scores.begin() - 1};
+constexpr double kSame_nats = 1e-6;
+
+/// Effects of which each is next to that before, and what they gain.
+struct Neighbours {
+  std::vector<Candidate> all;
+  std::vector<Score> scores;
+};
+
+Neighbours finer_neighbours(const Effect& effect, const LastResort& search, const Linearization& linearization) {
+  Neighbours finer;
+  for (Effect& proposal : law_of(effect).finer_proposals(effect, search.evidence)) {
+    set_measured_ranges(proposal, search.problem.data.robot, search.evidence);
+    finer.all.push_back({.effect = std::move(proposal)});
+  }
+  const EffectColumns columns = columns_tried(finer.all, search, linearization);
+  finer.scores = scan_of(finer.all, columns, search, linearization).scores();
+  return finer;
 }
 
-/// An effect at the best of its finer proposals, and what it gains there.
+/// The last of the neighbours of `effect` that follow it (or stand before it) without a break and gain as much.
+Effect end_of_plateau(Effect effect, bool following, double gain_nats, const LastResort& search,
+                      const Linearization& linearization) {
+  constexpr int kMostSteps = 50;
+  for (int step = 0; step < kMostSteps; ++step) {
+    Neighbours finer = finer_neighbours(effect, search, linearization);
+    if (!following) {
+      std::ranges::reverse(finer.all);
+      std::ranges::reverse(finer.scores);
+    }
+    std::size_t end = finer.all.size() / 2;
+    while (end + 1 < finer.all.size() && finer.scores[end + 1].gain_nats > gain_nats - kSame_nats) ++end;
+    effect = finer.all[end].effect;
+    if (end + 1 < finer.all.size()) break;
+  }
+  return effect;
+}
+
+/// An effect between those that explain most, and what these gain.
 struct Placed {
   Effect effect;
   double gain_nats = 0.0;
 };
 
 Placed at_best_place(const Effect& effect, const LastResort& search, const Linearization& linearization) {
-  std::vector<Candidate> finer;
-  for (Effect& proposal : law_of(effect).finer_proposals(effect, search.evidence)) {
-    set_measured_ranges(proposal, search.problem.data.robot, search.evidence);
-    finer.push_back({.effect = std::move(proposal)});
-  }
-  const EffectColumns columns = columns_tried(finer, search, linearization);
-  const std::vector<Score> scores = scan_of(finer, columns, search, linearization).scores();
-  const auto [first, last] = best_neighbours(scores);
-  return {law_of(effect).between(finer[first].effect, finer[last].effect), scores[first].gain_nats};
+  const Neighbours finer = finer_neighbours(effect, search, linearization);
+  const auto best = std::ranges::max_element(finer.scores, {}, &Score::gain_nats) - finer.scores.begin();
+  const Effect& one = finer.all[static_cast<std::size_t>(best)].effect;
+  const double gain_nats = finer.scores[static_cast<std::size_t>(best)].gain_nats;
+  return {law_of(effect).between(end_of_plateau(one, false, gain_nats, search, linearization),
+                                 end_of_plateau(one, true, gain_nats, search, linearization)),
+          gain_nats};
 }
 
 std::vector<Candidate> best_of_joints(const LastResort& search, const Linearization& linearization,

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "kinematics/units.hpp"
+#include <algorithm>
+#include <cmath>
+
+#include "diagnosis/last_resort.hpp"
 #include "simulated_arm.hpp"
 
 namespace demecal {
@@ -27,7 +30,9 @@ TEST(ClosedLoop, NamesASquareWaveByItsTurns) {
   EXPECT_EQ(found.joint, 1);
   EXPECT_EQ(found.setting("per_turn"), 3.0);
   // It jumps where 3 (q - at) is a multiple of pi, up or down as the height's sign says.
-  EXPECT_NEAR(std::abs(std::sin(3.0 * found.setting("at_rad") + 0.7)), 0.0, 0.1);
+  EXPECT_LT(std::abs(std::remainder(found.setting("at_rad") + 0.7 / 3.0, std::acos(-1.0) / 3.0)),
+            found.setting("within_rad"));
+  EXPECT_LT(found.setting("within_rad"), 0.05);
   EXPECT_NEAR(std::abs(found.value(0)), 0.0012, 5e-5);
   EXPECT_LT(over_floor(result.model.robot, data), 0.5 * over_floor(result.before.robot, data));
 }
@@ -38,8 +43,30 @@ TEST(ClosedLoop, NamesAStepByItsPlace) {
   EXPECT_EQ(found.kind, "jump");
   EXPECT_EQ(found.form, "step");
   EXPECT_EQ(found.joint, 2);
-  EXPECT_NEAR(found.setting("at_rad"), 0.4, 0.1);
+  EXPECT_NEAR(found.setting("at_rad"), 0.4, found.setting("within_rad"));
+  EXPECT_LT(found.setting("within_rad"), 0.1);
   EXPECT_NEAR(found.value(0), 0.001, 5e-5);
+}
+
+TEST(LastResorts, SayWithinWhatTheyMayBeWhereNothingWasMeasured) {
+  Scenario scenario = arm_that_errs(62, 2, "0.0005 * SIGN(theta - 0.4)");
+  scenario.poses = {120, 60, 40};
+  DataSet data = simulate(scenario);
+  std::erase_if(data.poses, [](const MeasuredPose& pose) { return std::abs(pose.joints[2] - 0.3) < 0.3; });
+  const DiagnosisProblem problem{data, kZeroed, poses_of(data, PoseSet::calibration), {}};
+  const Evidence evidence = evidence_of(data, problem.fitted);
+  const DiagnosedModel model =
+      diagnosed_model(problem, fit_declared(data, problem.fitted, kZeroed, nominal_robot(data)));
+  std::vector<Candidate> known;
+  const std::vector<std::string> kinds{"jump"};
+  EXPECT_TRUE(add_last_resorts({problem, evidence, kinds, 0.05, 99}, model, linearize(problem, model),
+                               RandomStream{62, 1}, known));
+  const auto found = std::ranges::find(known, 2, [](const Candidate& candidate) { return candidate.effect.joint; });
+  ASSERT_NE(found, known.end());
+  EXPECT_EQ(found->effect.form, "step");
+  EXPECT_NEAR(found->effect.setting("at_rad"), 0.3, 0.1);
+  EXPECT_GT(found->effect.setting("within_rad"), 0.3);
+  EXPECT_LT(found->effect.setting("within_rad"), 0.45);
 }
 
 TEST(ClosedLoop, TakesNoWavesForJumps) {
