@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,19 @@ struct Widened {
   WideningReason worst{};
 };
 
+/// Measurements whose radii are wider for one kind of reason.
+struct WidenedRows {
+  std::map<std::string, Widened> all{};  ///< by joint or circumstance
+  std::size_t rows = 0;
+
+  void take(const WideningReason& reason) {
+    Widened& one = all[reason.subject];
+    ++one.rows;
+    if (one.rows == 1 || reason.growth > one.worst.growth || reason.unstated_m > one.worst.unstated_m)
+      one.worst = reason;
+  }
+};
+
 std::string listed(const std::map<std::string, Widened>& all) {
   std::string text;
   for (const auto& [subject, one] : all)
@@ -32,37 +46,40 @@ std::string listed(const std::map<std::string, Widened>& all) {
 
 std::vector<std::string> widened_sentences(const CalibratedModel& model, const DataSet& data,
                                            std::span<const std::size_t> rows) {
-  std::map<std::string, Widened> outside, unstated;
-  std::size_t rows_outside = 0, rows_unstated = 0;
+  WidenedRows outside, unstated, unsure;
   for (const std::size_t row : rows) {
     const Widening there_by = widening_at(model, Stop(data.poses[row]));
     const bool flagged = is_outside_measured(model, Stop(data.poses[row]), there_by);
-    rows_outside += flagged ? 1 : 0;
-    bool states_all = true;
+    std::set<WidenedRows*> concerned;
     for (const WideningReason& reason : there_by.reasons) {
       const bool is_outside = reason.growth > 0.0;
-      states_all &= is_outside;
       if (is_outside && !flagged) continue;
-      Widened& one = (is_outside ? outside : unstated)[reason.subject];
-      ++one.rows;
-      if (one.rows == 1 || reason.growth > one.worst.growth || reason.unstated_m > one.worst.unstated_m)
-        one.worst = reason;
+      WidenedRows& kind = is_outside ? outside : reason.unstated_m > 0.0 ? unstated : unsure;
+      kind.take(reason);
+      concerned.insert(&kind);
     }
-    rows_unstated += states_all ? 0 : 1;
+    if (flagged && concerned.empty()) concerned.insert(&outside);
+    for (WidenedRows* kind : concerned) ++kind->rows;
   }
   std::vector<std::string> sentences;
-  if (rows_outside > 0)
+  if (outside.rows > 0)
     sentences.push_back(
         fmt::format("{} of the {} measurements {} outside of what the model was measured at, and {} "
                     "widened by judgement: {}.",
-                    rows_outside, rows.size(), rows_outside == 1 ? "lies" : "lie",
-                    rows_outside == 1 ? "its radius is" : "their radii are", listed(outside)));
-  if (rows_unstated > 0)
+                    outside.rows, rows.size(), outside.rows == 1 ? "lies" : "lie",
+                    outside.rows == 1 ? "its radius is" : "their radii are", listed(outside.all)));
+  if (unstated.rows > 0)
     sentences.push_back(
         fmt::format("{} of the {} measurements {} not state what the model's errors depend on, and {} "
                     "whatever was measured: {}.",
-                    rows_unstated, rows.size(), rows_unstated == 1 ? "does" : "do",
-                    rows_unstated == 1 ? "its radius holds" : "their radii hold", listed(unstated)));
+                    unstated.rows, rows.size(), unstated.rows == 1 ? "does" : "do",
+                    unstated.rows == 1 ? "its radius holds" : "their radii hold", listed(unstated.all)));
+  if (unsure.rows > 0)
+    sentences.push_back(
+        fmt::format("{} of the {} measurements {} so close to a jump that it may be on either side, "
+                    "and {} both: {}.",
+                    unsure.rows, rows.size(), unsure.rows == 1 ? "is" : "are",
+                    unsure.rows == 1 ? "its radius holds" : "their radii hold", listed(unsure.all)));
   return sentences;
 }
 

@@ -75,6 +75,21 @@ TEST(Evaluation, WidensRadiiByPayloadsAndGapsThatWereNotMeasuredAndSaysSo) {
   EXPECT_EQ(nlohmann::json::parse(to_json(evaluation))["widened_by"][0], evaluation.widened_by[0]);
 }
 
+TEST(Evaluation, WidensRadiiWhereAJumpMayBeOnEitherSideAndSaysSo) {
+  const DataSet near = one_pose(0.3, 5.0), far = one_pose(0.4, 5.0);
+  CalibratedModel model = measured_model(near);
+  model.robot.effects.push_back(
+      {.kind = "jump", .joint = 1, .settings = {{"at_rad", 0.29}, {"within_rad", 0.02}}, .values = {0.01}});
+  const auto said = [&](const DataSet& data) { return widened_sentences(model, data, std::vector<std::size_t>{0}); };
+  EXPECT_THAT(said(far), IsEmpty());
+  EXPECT_THAT(said(near),
+              ElementsAre("1 of the 1 measurements is so close to a jump that it may be on either side, and "
+                          "its radius holds both: joint 2 at 17.2 deg, where it jumps by 10 mrad: on which "
+                          "side it is, the poses did not tell."));
+  EXPECT_GT(*pose_errors(near, model, model.robot, nullptr)[0].interval95_mm,
+            *pose_errors(far, model, model.robot, nullptr)[0].interval95_mm);
+}
+
 TEST(PredictionEntry, SaysWherePosesFollowEachOtherAlongAPath) {
   const DataSet data = one_pose(0.3, 1.0);
   EXPECT_THAT(prediction_entry(*measured_model(data, true).interval).remark, HasSubstr("along a path"));
