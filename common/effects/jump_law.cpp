@@ -20,7 +20,7 @@
 namespace demecal::inline effects {
 namespace {
 
-constexpr double kJumpTerm = 0.5;  // of its height, to either side
+constexpr double kToEitherSide = 0.5;  // of its height
 
 /// A joint that jumps at one place (step), or to and fro a few times a turn (square_wave), as an encoder or resolver
 /// reads that joins its coarse to its fine track wrongly.
@@ -34,7 +34,7 @@ class JumpLaw final : public EffectLaw {
                     std::vector<UnitMotion>& motions) const override {
     const double beyond = state.joints()[effect.joint] - effect.setting(kAt);
     const double side = is_square(effect) ? std::sin(effect.setting(kPerTurn) * beyond) : beyond;
-    append_joint_motion(robot, effect.joint, 0, kJumpTerm * sign_of(side), motions);
+    append_joint_motion(robot, effect.joint, 0, kToEitherSide * sign_of(side), motions);
   }
   /// Places over the joints' ranges, which finer_proposals() lie between.
   std::vector<Effect> proposals(const Robot& robot, const Evidence& evidence) const override {
@@ -77,7 +77,7 @@ class JumpLaw final : public EffectLaw {
                                significant_text(std::abs(effect.setting(kAt)), 5) + " rad";
     const std::string side =
         is_square(effect) ? "sin(" + rounded_text(effect.setting(kPerTurn)) + " (" + beyond + "))" : beyond;
-    return write_joint_equation(effect, robot, {{0, "sign(" + side + ")", kJumpTerm}});
+    return write_joint_equation(effect, robot, {{0, "sign(" + side + ")", kToEitherSide}});
   }
   std::string diagnosis(const Effect& effect, const Robot& robot) const override {
     const std::string height = motion_text(robot, effect.joint, std::abs(effect.value(0)));
@@ -110,7 +110,7 @@ class JumpLaw final : public EffectLaw {
   void append_symbolic_motions(SymbolicWriter& writer) const override {
     const Expression beyond = writer.own_joint() - writer.effect.setting(kAt);
     const Expression side = is_square(writer.effect) ? sine(writer.effect.setting(kPerTurn) * beyond) : beyond;
-    writer.append_joint(0, kJumpTerm * side.algebra().function(Function::sign, {side}));
+    writer.append_joint(0, kToEitherSide * side.algebra().function(Function::sign, {side}));
   }
 
  private:

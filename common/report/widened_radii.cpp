@@ -62,24 +62,19 @@ std::vector<std::string> widened_sentences(const CalibratedModel& model, const D
     for (WidenedRows* kind : concerned) ++kind->rows;
   }
   std::vector<std::string> sentences;
-  if (outside.rows > 0)
-    sentences.push_back(
-        fmt::format("{} of the {} measurements {} outside of what the model was measured at, and {} "
-                    "widened by judgement: {}.",
-                    outside.rows, rows.size(), outside.rows == 1 ? "lies" : "lie",
-                    outside.rows == 1 ? "its radius is" : "their radii are", listed(outside.all)));
-  if (unstated.rows > 0)
-    sentences.push_back(
-        fmt::format("{} of the {} measurements {} not state what the model's errors depend on, and {} "
-                    "whatever was measured: {}.",
-                    unstated.rows, rows.size(), unstated.rows == 1 ? "does" : "do",
-                    unstated.rows == 1 ? "its radius holds" : "their radii hold", listed(unstated.all)));
-  if (unsure.rows > 0)
-    sentences.push_back(
-        fmt::format("{} of the {} measurements {} so close to a jump that it may be on either side, "
-                    "and {} both: {}.",
-                    unsure.rows, rows.size(), unsure.rows == 1 ? "is" : "are",
-                    unsure.rows == 1 ? "its radius holds" : "their radii hold", listed(unsure.all)));
+  const auto say = [&](const WidenedRows& kind, const std::string& of_one, const std::string& of_many) {
+    if (kind.rows > 0)
+      sentences.push_back(fmt::format("{} of the {} measurements {}: {}.", kind.rows, rows.size(),
+                                      kind.rows == 1 ? of_one : of_many, listed(kind.all)));
+  };
+  const std::string where = "outside of what the model was measured at";
+  say(outside, "lies " + where + ", and its radius is widened by judgement",
+      "lie " + where + ", and their radii are widened by judgement");
+  const std::string what = "not state what the model's errors depend on";
+  say(unstated, "does " + what + ", and its radius holds whatever was measured",
+      "do " + what + ", and their radii hold whatever was measured");
+  const std::string close = "so close to a jump that it may be on either side";
+  say(unsure, "is " + close + ", and its radius holds both", "are " + close + ", and their radii hold both");
   return sentences;
 }
 
