@@ -64,6 +64,8 @@ class Evolver {
 
   /// The closed loop is about to have this evolved; for those who watch.
   virtual void announce(Purpose /*purpose*/) {}
+  /// The closed loop begins once more, without the evolved joint corrections; for those who watch.
+  virtual void announce_loop_without_corrections() {}
   /// Whether what is bred by the caller itself, without evolve(), should end.
   virtual bool is_interrupted() const { return false; }
   /// Counts what the caller bred itself.

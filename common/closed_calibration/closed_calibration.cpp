@@ -51,15 +51,26 @@ class LoopPasses {
  private:
   void adopt(LoopResult found, const std::vector<JointSummary>& start);
   bool run_pass(const RoundWatcher& watch);
-  Fit loop_start_from(const CorrectedRobot& robot) const;
-  LoopResult run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch);
+  CorrectedRobot start_from(const CorrectedRobot& robot) const {
+    return better_start(data_, job_.declared, preparation_.declared, robot);
+  }
+  Fit fit_beside(const CorrectedRobot& start) const { return loop_start(data_, preparation_.declared, start); }
+  DiagnosedModel refined_from(const DiagnosisProblem& problem, const CorrectedRobot& start) const {
+    return refined(problem, diagnosed_model(problem, fit_beside(start)), kRefinementSteps);
+  }
+  LoopResult run_loop(const CorrectedRobot& start, FormulaSearch evolved, const RoundWatcher& watch);
+  LoopResult run_first_loop(const RoundWatcher& watch);
   void run_formula_pass(const RoundWatcher& watch);
   void restart_if_better(const DiagnosisProblem& problem, DiagnosedModel& model) const;
   std::vector<Candidate> catalogue_candidates() const;
   EvolvedJoints learn(const Preparation& preparation);
   bool evolve_corrections_again();
   void refit_with_validation();
-  bool is_better(const CorrectedRobot& robot) const;
+  bool is_better(const CorrectedRobot& robot, const CorrectedRobot& than) const {
+    return performance_index_mm2(robot, data_, selection_poses_) < performance_index_mm2(than, data_, selection_poses_);
+  }
+  /// Whether the robot does better on the selection poses than the model that is kept.
+  bool is_better(const CorrectedRobot& robot) const { return is_better(robot, closed_.calibration.robot); }
   bool allows_another_pass() const {
     const auto held = static_cast<int>(closed_.calibration.robot.effects.size());
     return pass_ < kMostPasses && held < job_.closed_loop.max_effects;
@@ -78,14 +89,9 @@ class LoopPasses {
   ExplanationFront front_;                 ///< about that
   std::optional<DiagnosedModel> best_;     ///< of its points, where it is another
   int pass_ = 1;
+  int rounds_told_ = 0;
   bool stopped_ = false;  ///< by the watcher
 };
-
-/// Whether the robot does better on the selection poses than the model that is kept.
-bool LoopPasses::is_better(const CorrectedRobot& robot) const {
-  return performance_index_mm2(robot, data_, selection_poses_) <
-         performance_index_mm2(closed_.calibration.robot, data_, selection_poses_);
-}
 
 /// `start`: of the corrections that it began with.
 void LoopPasses::adopt(LoopResult found, const std::vector<JointSummary>& start) {
@@ -97,16 +103,11 @@ void LoopPasses::adopt(LoopResult found, const std::vector<JointSummary>& start)
   best_ = std::move(found.best);
 }
 
-Fit LoopPasses::loop_start_from(const CorrectedRobot& robot) const {
-  const Fit& declared = preparation_.declared;
-  return loop_start(data_, declared, better_start(data_, job_.declared, declared, robot));
-}
-
-/// One pass of the loop; `stopped_` is set where the watcher ends it.
-LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolved, const RoundWatcher& watch) {
+/// One run of the loop; `stopped_` is set where the watcher ends it.
+LoopResult LoopPasses::run_loop(const CorrectedRobot& start, FormulaSearch evolved, const RoundWatcher& watch) {
   const auto watched = [&](const Round& round) {
     Round numbered = round;
-    numbered.number += static_cast<int>(closed_.loop.rounds.size());
+    numbered.number += rounds_told_;
     stopped_ = watch && !watch(numbered);
     return !stopped_;
   };
@@ -114,7 +115,8 @@ LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolv
   options.evolved = std::move(evolved.formulas);
   options.evolved_null_gains = std::move(evolved.null_nats);
   options.work = work_of(evolver_);
-  LoopResult found = close_loop(data_, job_.declared, loop_start_from(robot), options, watched);
+  LoopResult found = close_loop(data_, job_.declared, fit_beside(start), options, watched);
+  rounds_told_ += static_cast<int>(found.outcome.rounds.size());
   take_back_unjudged(data_, found);
   stopped_ = stopped_ || evolver_.is_interrupted();
   drop_negligible_terms(found.before);
@@ -122,10 +124,23 @@ LoopResult LoopPasses::run_loop(const CorrectedRobot& robot, FormulaSearch evolv
   return found;
 }
 
+/// Corrections that were evolved before effects are known may take in a part of what these would explain: the loop that
+/// begins without any is a candidate too.
+LoopResult LoopPasses::run_first_loop(const RoundWatcher& watch) {
+  const CorrectedRobot start = start_from(closed_.calibration.robot);
+  LoopResult found = run_loop(start, {}, watch);
+  if (stopped_ || !job_.declared.joint_corrections || !has_corrections(start)) return found;
+  evolver_.announce_loop_without_corrections();
+  LoopResult bare = run_loop(without_corrections(start), {}, watch);
+  if (is_better(bare.model.robot, found.model.robot)) found = std::move(bare);
+  return found;
+}
+
 /// One pass from the model that is kept; whether it added anything and another may follow.
 bool LoopPasses::run_pass(const RoundWatcher& watch) {
-  LoopResult found = run_loop(closed_.calibration.robot, {}, watch);
-  const bool first = pass_ == 1, added = added_any(found.outcome);
+  const bool first = pass_ == 1;
+  LoopResult found = first ? run_first_loop(watch) : run_loop(start_from(closed_.calibration.robot), {}, watch);
+  const bool added = added_any(found.outcome);
   if (first) {
     closed_.before = found.before.robot;
     before_ = found.before;
@@ -209,10 +224,9 @@ std::vector<Candidate> LoopPasses::catalogue_candidates() const {
 
 /// Corrections that were fitted around a residual which a formula explains since may do better begun anew.
 void LoopPasses::restart_if_better(const DiagnosisProblem& problem, DiagnosedModel& model) const {
-  DiagnosedModel again = refined(problem, diagnosed_model(problem, loop_start_from(model.robot)), kRefinementSteps);
+  DiagnosedModel again = refined_from(problem, start_from(model.robot));
   drop_negligible_terms(again);
-  const double present_mm2 = performance_index_mm2(model.robot, data_, selection_poses_);
-  if (performance_index_mm2(again.robot, data_, selection_poses_) < present_mm2) model = std::move(again);
+  if (is_better(again.robot, model.robot)) model = std::move(again);
 }
 
 /// Islands seek formulas in what the model leaves without those of the library; one more pass, in which both compete,
@@ -221,7 +235,8 @@ void LoopPasses::run_formula_pass(const RoundWatcher& watch) {
   const DiagnosisProblem problem{data_, job_.declared, poses_of(data_, PoseSet::calibration),
                                  poses_of(data_, PoseSet::validation)};
   const CorrectedRobot bare = without_formulas(closed_.calibration.robot);
-  const DiagnosedModel model = refined(problem, diagnosed_model(problem, loop_start_from(bare)), kRefinementSteps);
+  const CorrectedRobot start = start_from(bare);
+  const DiagnosedModel model = refined_from(problem, start);
   FormulaSearch search =
       search_formulas(problem, model, evolver_, {job_.seed, job_.gp.number_generations}, job_.closed_loop.family_error,
                       RandomStream{job_.seed, number_of(RandomPurpose::formula_null)});
@@ -229,7 +244,7 @@ void LoopPasses::run_formula_pass(const RoundWatcher& watch) {
   std::vector<Candidate> candidates = catalogue_candidates();
   candidates.insert(candidates.end(), search.formulas.begin(), search.formulas.end());
   ++pass_;
-  LoopResult found = run_loop(bare, std::move(search), watch);
+  LoopResult found = run_loop(start, std::move(search), watch);
   Calibration begun = closed_.calibration;
   set_origins(found.model, closed_.calibration.joints, begun);
   restart_if_better(problem, found.model);

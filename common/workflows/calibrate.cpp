@@ -91,6 +91,9 @@ class AnnouncedEvolver final : public Evolver {
     if (purpose == Purpose::null_distribution) ++null_searches_;
     observer_.on_message(search_words(purpose, null_searches_));
   }
+  void announce_loop_without_corrections() override {
+    observer_.on_message("the closed loop once more, without the joint corrections that were evolved before it");
+  }
   bool is_interrupted() const override { return islands_.is_interrupted(); }
   void add_effort(std::uint32_t generations, std::uint64_t evaluations) override {
     islands_.add_effort(generations, evaluations);

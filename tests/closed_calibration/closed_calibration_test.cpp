@@ -110,5 +110,35 @@ TEST(ClosedCalibration, StopsWhenToldToAndKeepsWhatItHas) {
   EXPECT_EQ(closed.loop.rounds.size(), 1U);
 }
 
+/// Evolves nothing, and counts the loops that begin without corrections.
+class LoopCounter final : public Evolver {
+ public:
+  EvolvedJoints evolve(const std::vector<JointTraining>& trainings, const EvolutionTerms&) override {
+    return nothing_evolved(trainings);
+  }
+  void announce_loop_without_corrections() override { ++loops; }
+  int loops = 0;
+};
+
+/// Joint 2 errs by a wave of forty per turn, most of which a square wave takes in that was evolved before the loop.
+TEST(ClosedCalibration, BeginsWithoutWhatWasEvolvedWhereThatStandsInTheWayOfTheCause) {
+  DataSet data = measure(true_puma({"", "0.0006*SIN(40*theta)", "", "", "", ""}), 150, 5e-5, 7, false);
+  Job job = looping_job();
+  job.closed_loop.candidates = {"gear_harmonic"};
+  const Preparation preparation = prepare(data, job);
+  const Calibration nothing = conclude(data, job, preparation, nothing_evolved(preparation.training).joints);
+  Calibration square = nothing;
+  square.robot.corrections[1] = JointCorrection(parse("0.0005*SIGN(SIN(40*theta))"), {}, {-M_PI, M_PI});
+  LoopCounter counter;
+  const ClosedCalibration bare = close_calibration(data, job, preparation, nothing, counter, {});
+  ASSERT_EQ(counter.loops, 0);
+  const ClosedCalibration closed = close_calibration(data, job, preparation, square, counter, {});
+  EXPECT_EQ(counter.loops, 1);
+  EXPECT_LE(accept_like_rms(closed.calibration.robot, data), accept_like_rms(bare.calibration.robot, data));
+  ASSERT_EQ(closed.calibration.robot.effects.size(), 1U);
+  EXPECT_TRUE(closed.calibration.robot.effects[0].same_law_as(
+      {.kind = "gear_harmonic", .joint = 1, .settings = {{"ratio", 40.0}}}));
+}
+
 }  // namespace
 }  // namespace demecal
