@@ -10,7 +10,7 @@
 #include "diagnosis/group.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effect_sets/set_island.hpp"
-#include "explanations/error_budget.hpp"
+#include "explanations/explanation_front.hpp"
 #include "explanations/explanation_search.hpp"
 #include "random/random_stream.hpp"
 #include "residuals/diagnosed_model.hpp"

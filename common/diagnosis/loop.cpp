@@ -15,7 +15,7 @@
 #include "diagnosis/scan.hpp"
 #include "effects/arm_state.hpp"
 #include "effects/effect.hpp"
-#include "explanations/error_budget.hpp"
+#include "explanations/explanation_front.hpp"
 #include "parameters/observation.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "products/tall_products.hpp"

@@ -13,7 +13,7 @@
 #include "diagnosis/detectable.hpp"
 #include "diagnosis/outcome.hpp"
 #include "effect_sets/set_island.hpp"
-#include "explanations/error_budget.hpp"
+#include "explanations/explanation_front.hpp"
 #include "explanations/explanation_search.hpp"
 #include "explanations/set_models.hpp"
 #include "fitting/fit.hpp"

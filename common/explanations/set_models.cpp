@@ -51,6 +51,7 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
       linearization_(linearize_without(problem, model, left_out_)) {
   bare_.robot = with_contacts_of(std::move(bare_.robot), linearization_.ids, problem.data);
   std::vector<SampledEffect> sampled;
+  std::vector<double> precision;
   for (const PricedEffect& one : effects) {
     const auto held =
         std::ranges::find_if(model.robot.effects, [&](const Effect& other) { return other.same_law_as(one.effect); });
@@ -58,6 +59,8 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
     effects_.push_back(held == model.robot.effects.end() ? one.effect : *held);
     problem_.naming_costs_nats.push_back(one.naming_cost_nats);
     sampled.push_back({one.effect, linearization_.fitted.states});
+    std::ranges::copy(precision_of(one.effect, problem.data.robot, linearization_.fitted.states),
+                      std::back_inserter(precision));
   }
   EffectColumns columns;
   columns.append(sampled, problem.data.robot);
@@ -67,15 +70,18 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
   problem_.rows = static_cast<double>(linearization_.fitted.rows());
   problem_.freedom = linearization_.projection.freedom();
   problem_.poses = static_cast<double>(distinct_poses(linearization_.fitted));
-  project(columns.dense(linearization_.fitted), columns.spans());
+  project(columns.dense(linearization_.fitted), columns.spans(),
+          Eigen::VectorXd::Map(precision.data(), std::ssize(precision)));
 }
 
-/// Makes each effect's own columns orthonormal beyond the declared model; directions that it explains are dropped.
-void SetModels::project(const RowMatrix& columns, const std::vector<ColumnSpan>& spans) {
+/// Makes each effect's own columns orthonormal beyond the declared model; directions that it explains are dropped, and
+/// coefficients believed to be small as the model's are.
+void SetModels::project(const RowMatrix& columns, const std::vector<ColumnSpan>& spans,
+                        const Eigen::VectorXd& precision) {
   if (columns.cols() == 0) return;
   const Projection& projection = linearization_.projection;
   const Eigen::MatrixXd along = transposed_product(columns, projection.basis());
-  const Eigen::MatrixXd gram = square_product(columns) - square_product(along.transpose());
+  Eigen::MatrixXd gram = square_product(columns) - square_product(along.transpose());
   Eigen::Index found = 0;
   for (const ColumnSpan& span : spans) {
     const Eigen::MatrixXd own = gram.block(span.first, span.first, span.count, span.count);
@@ -92,6 +98,7 @@ void SetModels::project(const RowMatrix& columns, const std::vector<ColumnSpan>&
     problem_.spans.push_back({found, rank});
     found += rank;
   }
+  gram.diagonal() += precision.cwiseAbs2();
   Eigen::MatrixXd half(columns.cols(), found);
   for (std::size_t i = 0; i < spans.size(); ++i)
     half.middleCols(problem_.spans[i].first, problem_.spans[i].count) =

@@ -34,7 +34,7 @@ class SetModels {
   DiagnosedModel with(const std::vector<std::size_t>& set) const;
 
  private:
-  void project(const RowMatrix& columns, const std::vector<ColumnSpan>& spans);
+  void project(const RowMatrix& columns, const std::vector<ColumnSpan>& spans, const Eigen::VectorXd& precision);
 
   DiagnosedModel bare_;         ///< without any of the effects, its numbers those of the whole model
   std::vector<bool> left_out_;  ///< of the effects that `bare_` still lists

@@ -27,29 +27,17 @@ std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const Correct
   return ids;
 }
 
-/// Effects are believed to move the arm by a few thousandths: it keeps those apart from running away that these poses
-/// hardly tell from one another, and vanishes beside what the poses do show.
 void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedRobot& robot, const Robot& described,
                            const std::vector<ArmState>& states, Prior& prior) {
-  constexpr double kUsualMotion = 2e-3;  ///< rad or m
-  std::vector<std::vector<double>> squares(robot.effects.size());
-  in_pieces(robot.effects.size(), [&](std::size_t i) {
-    std::vector<UnitMotion> motions;
-    squares[i].assign(law_of(robot.effects[i]).coefficients(robot.effects[i], described).size(), 0.0);
-    for (const ArmState& state : states) {
-      motions.clear();
-      append_unit_motions(robot.effects[i], described, state, motions);
-      for (const UnitMotion& motion : motions) {
-        squares[i][static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
-      }
-    }
-  });
+  std::vector<std::vector<double>> precisions(robot.effects.size());
+  in_pieces(robot.effects.size(),
+            [&](std::size_t i) { precisions[i] = precision_of(robot.effects[i], described, states); });
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k].kind != ParameterId::Kind::effect) continue;
     const auto effect = static_cast<std::size_t>(ids[k].index),
                coefficient = static_cast<std::size_t>(ids[k].coefficient);
     const auto at = static_cast<Eigen::Index>(k);
-    prior.precision[at] = std::sqrt(squares[effect][coefficient] / static_cast<double>(states.size())) / kUsualMotion;
+    prior.precision[at] = precisions[effect][coefficient];
     prior.offset[at] = robot.effects[effect].value(coefficient);
   }
 }
@@ -220,6 +208,20 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
                                     problem.declared.joint_offset);
   model.scales = starting_scales(problem, start);
   return model;
+}
+
+std::vector<double> precision_of(const Effect& effect, const Robot& described, const std::vector<ArmState>& states) {
+  constexpr double kUsualMotion = 2e-3;  ///< rad or m
+  std::vector<double> precision(law_of(effect).coefficients(effect, described).size(), 0.0);
+  std::vector<UnitMotion> motions;
+  for (const ArmState& state : states) {
+    motions.clear();
+    append_unit_motions(effect, described, state, motions);
+    for (const UnitMotion& motion : motions)
+      precision[static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
+  }
+  for (double& value : precision) value = std::sqrt(value / static_cast<double>(states.size())) / kUsualMotion;
+  return precision;
 }
 
 Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model) {
