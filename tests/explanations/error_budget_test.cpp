@@ -43,7 +43,6 @@ TEST(Causes, HaveAWordAndAnAdviceForEveryKindOfTheCatalogue) {
   for (const EffectLaw* law : catalogue()) {
     CorrectedRobot robot;
     robot.effects = {{.kind = std::string(law->kind()), .joint = 0}};
-    robot.effects.front().values = {1.0};
     const ErrorCause cause{.group = cause_of(law->kind()).group, .joint = 0, .effects = {0}};
     words.insert(std::string(to_string(cause.group)));
     EXPECT_FALSE(to_string(cause).empty()) << law->kind();
