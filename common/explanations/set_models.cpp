@@ -51,7 +51,6 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
       linearization_(linearize_without(problem, model, left_out_)) {
   bare_.robot = with_contacts_of(std::move(bare_.robot), linearization_.ids, problem.data);
   std::vector<SampledEffect> sampled;
-  std::vector<double> precision;
   for (const PricedEffect& one : effects) {
     const auto held =
         std::ranges::find_if(model.robot.effects, [&](const Effect& other) { return other.same_law_as(one.effect); });
@@ -59,8 +58,6 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
     effects_.push_back(held == model.robot.effects.end() ? one.effect : *held);
     problem_.naming_costs_nats.push_back(one.naming_cost_nats);
     sampled.push_back({one.effect, linearization_.fitted.states});
-    std::ranges::copy(precision_of(one.effect, problem.data.robot, linearization_.fitted.states),
-                      std::back_inserter(precision));
   }
   EffectColumns columns;
   columns.append(sampled, problem.data.robot);
@@ -70,6 +67,9 @@ SetModels::SetModels(const DiagnosisProblem& problem, const DiagnosedModel& mode
   problem_.rows = static_cast<double>(linearization_.fitted.rows());
   problem_.freedom = linearization_.projection.freedom();
   problem_.poses = static_cast<double>(distinct_poses(linearization_.fitted));
+  std::vector<double> precision;
+  for (const std::vector<double>& own : precisions_of(effects_, problem.data.robot, linearization_.fitted.states))
+    std::ranges::copy(own, std::back_inserter(precision));
   project(columns.dense(linearization_.fitted), columns.spans(),
           Eigen::VectorXd::Map(precision.data(), std::ssize(precision)));
 }

@@ -29,9 +29,7 @@ std::vector<ParameterId> free_ids(const DiagnosisProblem& problem, const Correct
 
 void believe_effects_small(const std::vector<ParameterId>& ids, const CorrectedRobot& robot, const Robot& described,
                            const std::vector<ArmState>& states, Prior& prior) {
-  std::vector<std::vector<double>> precisions(robot.effects.size());
-  in_pieces(robot.effects.size(),
-            [&](std::size_t i) { precisions[i] = precision_of(robot.effects[i], described, states); });
+  const std::vector<std::vector<double>> precisions = precisions_of(robot.effects, described, states);
   for (std::size_t k = 0; k < ids.size(); ++k) {
     if (ids[k].kind != ParameterId::Kind::effect) continue;
     const auto effect = static_cast<std::size_t>(ids[k].index),
@@ -210,18 +208,23 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
   return model;
 }
 
-std::vector<double> precision_of(const Effect& effect, const Robot& described, const std::vector<ArmState>& states) {
+std::vector<std::vector<double>> precisions_of(const std::vector<Effect>& effects, const Robot& described,
+                                               const std::vector<ArmState>& states) {
   constexpr double kUsualMotion = 2e-3;  ///< rad or m
-  std::vector<double> precision(law_of(effect).coefficients(effect, described).size(), 0.0);
-  std::vector<UnitMotion> motions;
-  for (const ArmState& state : states) {
-    motions.clear();
-    append_unit_motions(effect, described, state, motions);
-    for (const UnitMotion& motion : motions)
-      precision[static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
-  }
-  for (double& value : precision) value = std::sqrt(value / static_cast<double>(states.size())) / kUsualMotion;
-  return precision;
+  std::vector<std::vector<double>> precisions(effects.size());
+  in_pieces(effects.size(), [&](std::size_t i) {
+    std::vector<double> squares(law_of(effects[i]).coefficients(effects[i], described).size(), 0.0);
+    std::vector<UnitMotion> motions;
+    for (const ArmState& state : states) {
+      motions.clear();
+      append_unit_motions(effects[i], described, state, motions);
+      for (const UnitMotion& motion : motions)
+        squares[static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
+    }
+    for (const double square : squares)
+      precisions[i].push_back(std::sqrt(square / static_cast<double>(states.size())) / kUsualMotion);
+  });
+  return precisions;
 }
 
 Linearization linearize(const DiagnosisProblem& problem, const DiagnosedModel& model) {

@@ -57,10 +57,11 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
 /// Rows of a field as they were before those of one pose were made independent.
 RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
 
-/// One over the standard deviation with which each coefficient of an effect is believed to be zero: that of a motion of
-/// the arm by a few thousandths (rad, m) at the states. It keeps those apart from running away that these poses hardly
-/// tell from one another, and vanishes beside what the poses do show.
-std::vector<double> precision_of(const Effect& effect, const Robot& described, const std::vector<ArmState>& states);
+/// One over the standard deviation with which each coefficient of each effect is believed to be zero: that of a motion
+/// of the arm by a few thousandths (rad, m) at the states. It keeps those apart from running away that these poses
+/// hardly tell from one another, and vanishes beside what the poses do show.
+std::vector<std::vector<double>> precisions_of(const std::vector<Effect>& effects, const Robot& described,
+                                               const std::vector<ArmState>& states);
 
 /// Linearizes at `model`. What poses share by its noise is fitted beside it and then forgotten: with that the rows left
 /// are independent. Smooth terms are believed to be near zero by automatic relevance determination, links to be
