@@ -200,7 +200,7 @@ void LoopPasses::refit_with_validation() {
   const ExplanationFront front = adopted_ ? front_ : pruned_front(problem, ends.after);
   ErrorBudget budget =
       error_budget_of(data_, declared, ends.after, front, last ? last->ends.after : ends.after, job_.seed);
-  if (adopted_) closed_.best = calibration_of_best(data_, declared, preparation_, std::move(best_));
+  if (adopted_) closed_.best = calibration_of_best(data_, declared, preparation_, ends.before.robot, std::move(best_));
   if (last) {
     const std::vector<JointSummary> start = std::move(closed_.calibration.joints);
     closed_.calibration = calibration_of(data_, declared, preparation_, last->ends.after);

@@ -46,6 +46,22 @@ std::vector<ParameterEstimate> declared_estimates(const DataSet& data, const Dec
   return estimates;
 }
 
+/// What the validation poses, which neither robot has seen yet, show of them.
+UnseenValidation unseen_validation(const DataSet& data, const DeclaredModel& declared, const CorrectedRobot& before,
+                                   const CorrectedRobot& after) {
+  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
+  const FittedPosterior fitted = fitted_posterior(data, declared, after, poses_of(data, PoseSet::calibration));
+  return {.before_mm = error_figures(before, data, validation).rms_mm,
+          .after_mm = error_figures(after, data, validation).rms_mm,
+          .interval = prediction_interval(data, fitted, after),
+          .noise = fitted.noise};
+}
+
+/// Whether the last fit takes in poses that others did not.
+bool sees_more_at_last(const DataSet& data) {
+  return poses_of_last_fit(data) != poses_of(data, PoseSet::calibration);
+}
+
 std::string why_uncorrected(const DeclaredModel& declared, const Joint& joint) {
   if (!declared.joint_corrections) return "joint corrections are not declared";
   if (!is_revolute(joint)) return "a prismatic joint";
@@ -158,29 +174,26 @@ ErrorBudget error_budget_of(const DataSet& data, const DeclaredModel& declared, 
 }
 
 std::optional<Calibration> calibration_of_best(const DataSet& data, const DeclaredModel& declared,
-                                               const Preparation& preparation, std::optional<DiagnosedModel> best) {
+                                               const Preparation& preparation, const CorrectedRobot& before,
+                                               std::optional<DiagnosedModel> best) {
   if (!best) return std::nullopt;
+  std::optional<UnseenValidation> unseen;
+  if (sees_more_at_last(data)) unseen = unseen_validation(data, declared, before, best->robot);
   DiagnosedModel model = final_fit(data, declared, std::move(*best));
   drop_negligible_terms(model);
-  return calibration_of(data, declared, preparation, model);
+  Calibration calibration = calibration_of(data, declared, preparation, model);
+  calibration.unseen = std::move(unseen);
+  return calibration;
 }
 
 std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends) {
-  if (poses_of_last_fit(data) == poses_of(data, PoseSet::calibration)) return std::nullopt;
-  const std::vector<std::size_t> validation = poses_of(data, PoseSet::validation);
-  const std::vector<std::size_t> calibration = poses_of(data, PoseSet::calibration);
-  UnseenValidation unseen{error_figures(ends.before.robot, data, validation).rms_mm,
-                          error_figures(ends.after.robot, data, validation).rms_mm,
-                          {},
-                          {}};
-  const FittedPosterior fitted = fitted_posterior(data, declared, ends.after.robot, calibration);
-  unseen.interval = prediction_interval(data, fitted, ends.after.robot);
-  unseen.noise = fitted.noise;
+  if (!sees_more_at_last(data)) return std::nullopt;
+  UnseenValidation unseen = unseen_validation(data, declared, ends.before.robot, ends.after.robot);
   for (DiagnosedModel* model : {&ends.before, &ends.after}) {
     *model = final_fit(data, declared, std::move(*model));
     drop_negligible_terms(*model);
   }
-  return LastFit{std::move(ends), unseen};
+  return LastFit{std::move(ends), std::move(unseen)};
 }
 
 }  // namespace demecal::inline closed_calibration

@@ -39,9 +39,11 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
 /// summaries of the corrections that the loop began with.
 void set_origins(const DiagnosedModel& model, const std::vector<JointSummary>& start, Calibration& calibration);
 
-/// The same of the model of the least error, where it is not the chosen one, after the last fit.
+/// The same of the model of the least error, where it is not the chosen one, after the last fit; `before` is the robot
+/// that the loop started from.
 std::optional<Calibration> calibration_of_best(const DataSet& data, const DeclaredModel& declared,
-                                               const Preparation& preparation, std::optional<DiagnosedModel> best);
+                                               const Preparation& preparation, const CorrectedRobot& before,
+                                               std::optional<DiagnosedModel> best);
 
 /// What stands before corrections are evolved anew: the declared model is `model` without its corrections, and the
 /// joints learn what its effects leave.

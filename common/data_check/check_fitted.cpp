@@ -21,6 +21,7 @@
 #include "kinematics/units.hpp"
 #include "parameters/declared_model.hpp"
 #include "parameters/posterior.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "random/distributions.hpp"
 #include "trials/explanations.hpp"
@@ -107,8 +108,8 @@ class FittedArm {
   }
 
   std::vector<double> errors_m(const std::vector<TrialRow>& rows) const {
-    std::vector<double> errors;
-    for (const TrialRow& row : rows) errors.push_back(error_m(row));
+    std::vector<double> errors(rows.size());
+    in_batches(rows.size(), [&](std::size_t i) { errors[i] = error_m(rows[i]); });
     return errors;
   }
 

@@ -14,6 +14,7 @@
 #include "data_check/searches.hpp"
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
+#include "pieces/pieces.hpp"
 #include "random/distributions.hpp"
 #include "trials/finding.hpp"
 #include "trials/trial_fit.hpp"
@@ -58,11 +59,11 @@ class OutlierSearch {
  public:
   OutlierSearch(const DataSet& data, const std::vector<TrialRow>& rows, const PointPrediction& predict, double least_m)
       : data_(data), rows_(rows), predict_(predict) {
-    std::vector<double> errors, off;
-    for (const TrialRow& row : rows) {
-      errors.push_back(error(row));
-      off.push_back(predict.deviations_off(row));
-    }
+    std::vector<double> errors(rows.size()), off(rows.size());
+    in_batches(rows.size(), [&](std::size_t i) {
+      errors[i] = error(rows[i]);
+      off[i] = predict.deviations_off(rows[i]);
+    });
     median_m_ = median(errors);
     far_deviations_ = std::max(kFarDeviations, kFarOverMost * quantile_of(off, 0.8));
     for (std::size_t i = 0; i < rows.size(); ++i)

@@ -35,17 +35,34 @@ std::array<double, 2> fall_interval(const SquaredErrors_mm2& without, const Squa
   return {falls_mm[kDraws / 40], falls_mm[kDraws - 1 - kDraws / 40]};
 }
 
+/// The effects of any of the front's sets, then those of the model that are in none.
+std::vector<PricedEffect> effects_of_both(const ExplanationFront& front, const DiagnosedModel& model) {
+  std::vector<PricedEffect> effects = front.effects;
+  for (PricedEffect& own : effects_of(model)) {
+    const auto is_it = [&](const PricedEffect& one) { return one.effect.same_law_as(own.effect); };
+    if (std::ranges::none_of(effects, is_it)) effects.push_back(std::move(own));
+  }
+  return effects;
+}
+
 /// What a model leaves at some poses, and to first order what it leaves with other effects: the mean square of a set is
 /// the model's own and by how much that of the set, linearised about the model, exceeds that of the model's own set.
 class ErrorsOfSets {
  public:
+  /// Sets are of `effects`, those of effects_of_both(), of which the front has the first so many.
   ErrorsOfSets(const DiagnosisProblem& problem, const DiagnosedModel& model, const std::vector<PricedEffect>& effects,
-               std::span<const std::size_t> poses)
+               std::size_t in_front, std::span<const std::size_t> poses)
       : data_(problem.data),
         poses_(poses),
         models_(problem, model, effects),
+        in_front_(in_front),
         held_(of(models_.held())),
-        own_mm2_(mean(squared_errors(data_, poses_, model.robot))) {}
+        own_mm2_(mean(squared_errors(data_, poses_, model.robot))) {
+    for (const Effect& own : model.robot.effects) {
+      const auto is_it = [&](const PricedEffect& one) { return one.effect.same_law_as(own); };
+      place_.push_back(static_cast<std::size_t>(std::ranges::find_if(effects, is_it) - effects.begin()));
+    }
+  }
 
   double rms_of_model_mm() const { return std::sqrt(own_mm2_); }
   double rms_mm(const std::vector<std::size_t>& set) const {
@@ -55,9 +72,15 @@ class ErrorsOfSets {
     return squared_errors(data_, poses_, models_.with(set).robot);
   }
   const SquaredErrors_mm2& of_held() const { return held_; }
+  /// A set of the front, with what the model holds beside all of them.
+  std::vector<std::size_t> whole(std::vector<std::size_t> set) const {
+    std::ranges::copy_if(models_.held(), std::back_inserter(set),
+                         [this](std::size_t place) { return place >= in_front_; });
+    return set;
+  }
   std::vector<std::size_t> held_without(const ErrorCause& cause) const {
     std::vector<std::size_t> others = models_.held();
-    std::erase_if(others, [&](std::size_t effect) { return std::ranges::binary_search(cause.effects, effect); });
+    for (const std::size_t effect : cause.effects) std::erase(others, place_[effect]);
     return others;
   }
 
@@ -65,6 +88,8 @@ class ErrorsOfSets {
   const DataSet& data_;
   std::span<const std::size_t> poses_;
   SetModels models_;
+  std::size_t in_front_;
+  std::vector<std::size_t> place_;  ///< of each of the model's effects
   SquaredErrors_mm2 held_;
   double own_mm2_;
 };
@@ -89,18 +114,19 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
   if (causes.empty() || judging.empty()) return budget;
   const DiagnosisProblem last_problem{problem.data, problem.declared, {last_fitted.begin(), last_fitted.end()}, {}};
   const std::vector<std::size_t> accept = poses_of(problem.data, PoseSet::accept);
-  const ErrorsOfSets front_errors(problem, model, front.effects, judging);
-  const ErrorsOfSets last_errors(last_problem, last, front.effects, accept);
+  const std::vector<PricedEffect> effects = effects_of_both(front, model);
+  const ErrorsOfSets errors(problem, model, effects, front.effects.size(), judging);
+  const ErrorsOfSets last_errors(last_problem, last, effects, front.effects.size(), accept);
   budget.front.resize(front.points.size());
   in_pieces(front.points.size(), [&](std::size_t i) {
     const ExplanationFront::Point& at = front.points[i];
     FrontPoint& point = budget.front[i];
     point = {.causes = at.causes, .chosen = i == front.chosen};
-    point.validation_rms_mm = point.chosen ? front_errors.rms_of_model_mm() : front_errors.rms_mm(at.set);
+    point.validation_rms_mm = point.chosen ? errors.rms_of_model_mm() : errors.rms_mm(errors.whole(at.set));
     if (!accept.empty())
-      point.accept_rms_mm = point.chosen ? last_errors.rms_of_model_mm() : last_errors.rms_mm(at.set);
+      point.accept_rms_mm =
+          point.chosen ? last_errors.rms_of_model_mm() : last_errors.rms_mm(last_errors.whole(at.set));
   });
-  const ErrorsOfSets errors(problem, model, effects_of(model), judging);
   const double with_mm = errors.rms_of_model_mm(), bare_mm = errors.rms_mm({});
   const std::uint64_t name = random.name();
   budget.causes.resize(causes.size());
@@ -116,7 +142,7 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
         .interval_mm = fall_interval(errors.of(others), errors.of_held(), own)};
   });
   std::ranges::stable_sort(budget.causes, std::greater{}, &CauseCost::without_mm);
-  offer_without_one(ErrorsOfSets(last_problem, last, effects_of(last), accept), budget);
+  offer_without_one(last_errors, budget);
   return budget;
 }
 

@@ -123,10 +123,11 @@ std::vector<const Observation*> reserve(ResidualField& field, const DataSet& dat
 }
 
 /// The real arm's places: the identified chain at the joints where it really stands.
-std::vector<Eigen::Isometry3d> real_places(const CorrectedRobot& robot, const Stop& stop) {
+std::vector<Eigen::Isometry3d> real_places(const CorrectedRobot& robot, const Observation& observation) {
   Robot real;
   real.chain = robot.chain;
-  return arm_state(real, Stop(robot.actual_joints(stop))).places;
+  const JointVector moved = displacement(robot.chain, robot.effects, observation.motions).joints;
+  return arm_state(real, Stop(observation.corrected + moved)).places;
 }
 
 /// Fills a field's rows, pose by pose.
@@ -172,7 +173,7 @@ void FieldRows::fill(ResidualField& field, std::size_t number, const Observation
   field.declared.middleRows(first, count) = -rows_.jacobian;
   const Stop stop(pose);
   const Eigen::Vector3d tool = rows_.motion.predicted.translation();
-  const Twists twists = place_twists(real_places(robot, stop), robot.sensor_from_base, tool);
+  const Twists twists = place_twists(real_places(robot, observation), robot.sensor_from_base, tool);
   const auto measured = measurement_jacobian(robot, rows_.motion.predicted, data_, pose);
   Eigen::Index at = first;
   for (const auto& [row, scale] : rows_used(pose, scales_))

@@ -145,9 +145,10 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   std::optional<LastFit> last = last_fit(data, job.declared, ends);
   ErrorBudget budget =
       error_budget_of(data, job.declared, ends.after, found.front, last ? last->ends.after : ends.after, job.seed);
-  if (last) ends = std::move(last->ends);
-  if (const auto best = calibration_of_best(data, job.declared, result.preparation, std::move(found.best)))
+  if (const auto best =
+          calibration_of_best(data, job.declared, result.preparation, ends.before.robot, std::move(found.best)))
     result.best = make_model(data, job, *best);
+  if (last) ends = std::move(last->ends);
   result.calibration = calibration_of(data, job.declared, result.preparation, ends.after);
   result.calibration.budget = std::move(budget);
   if (last) result.calibration.unseen = last->unseen;

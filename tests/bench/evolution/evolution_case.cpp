@@ -17,9 +17,13 @@
 #include "closed_loop/score.hpp"
 #include "closed_loop/truth.hpp"
 #include "diagnosis/loop.hpp"
+#include "explanations/causes.hpp"
+#include "explanations/explanation_front.hpp"
 #include "expression/evaluate.hpp"
+#include "fitting/fit.hpp"
 #include "prediction/measurement.hpp"
 #include "report/make_report.hpp"
+#include "residuals/diagnosed_model.hpp"
 #include "simulation/scenario.hpp"
 #include "workflows/workflows.hpp"
 
@@ -129,6 +133,39 @@ CorrectionFigures correction_figures(const DataSet& data, const Job& job, const 
   return figures;
 }
 
+/// The model of these effects and all that is declared, fitted to the calibration poses.
+DiagnosedModel model_of(const DiagnosisProblem& problem, const Fit& start, std::vector<Effect> effects) {
+  constexpr int kSteps = 12;
+  CorrectedRobot robot = start.robot;
+  robot.effects = std::move(effects);
+  return refined(problem, diagnosed_model(problem, loop_start(problem.data, start, robot)), kSteps);
+}
+
+DiagnosisProblem problem_of(const DataSet& data, const DeclaredModel& declared) {
+  return {data, declared, poses_of(data, PoseSet::calibration), poses_of(data, PoseSet::validation)};
+}
+
+double rms_of_judging_mm(const DiagnosisProblem& problem, const CorrectedRobot& robot) {
+  return std::sqrt(mean(squared_errors(problem.data, judging_poses(problem, robot), robot)));
+}
+
+/// See EvolutionFigures::validation_of_first_mm; `kept` are the effects of the model that the rounds made.
+std::vector<double> validation_of_first(const DiagnosisProblem& problem, const std::vector<Round>& rounds,
+                                        const std::vector<Effect>& kept) {
+  const Fit start = fit_declared(problem.data, problem.fitted, problem.declared, nominal_robot(problem.data));
+  std::vector<double> rms_mm{rms_of_judging_mm(problem, model_of(problem, start, {}).robot)};
+  std::vector<Effect> effects;
+  for (const Round& round : rounds) {
+    if (round.verdict != Verdict::added) continue;
+    if (std::ranges::none_of(kept, [&](const Effect& one) { return one.same_law_as(round.effect); })) continue;
+    effects.push_back(round.effect);
+    const DiagnosedModel model = model_of(problem, start, effects);
+    rms_mm.resize(std::max(rms_mm.size(), causes_of(model.robot).size() + 1), rms_mm.back());
+    rms_mm.back() = rms_of_judging_mm(problem, model.robot);
+  }
+  return rms_mm;
+}
+
 EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, std::uint64_t seed, bool evolve,
                            const std::vector<Effect>& truths) {
   Job job;
@@ -148,6 +185,8 @@ EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
   figures.validation_mm = result.calibration.unseen ? result.calibration.unseen->after_mm : 0.0;
   figures.accept_mm = error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
   figures.corrections = correction_figures(data, job, result);
+  if (!evolve)
+    figures.validation_of_first_mm = validation_of_first(problem_of(data, declared), result.loop.rounds, robot.effects);
   if (truths.empty()) return figures;
   const std::vector<ArmState> states = states_of(data, PoseSet::calibration);
   const Naming naming(robot, result.loop, data.robot, states);
@@ -163,11 +202,18 @@ EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
 
 EvolutionCase compared(std::string name, const DataSet& data, const DeclaredModel& declared, std::uint64_t seed,
                        const std::vector<Effect>& truths) {
-  return {.name = std::move(name),
-          .seed = seed,
-          .true_causes = truths.size(),
-          .without = diagnosed(data, declared, seed, false, truths),
-          .with = diagnosed(data, declared, seed, true, truths)};
+  EvolutionCase result{.name = std::move(name),
+                       .seed = seed,
+                       .true_causes = truths.size(),
+                       .without = diagnosed(data, declared, seed, false, truths),
+                       .with = diagnosed(data, declared, seed, true, truths)};
+  if (truths.empty()) return result;
+  const DiagnosisProblem problem = problem_of(data, declared);
+  const Fit start = fit_declared(data, problem.fitted, declared, nominal_robot(data));
+  const CorrectedRobot truth = model_of(problem, start, truths).robot;
+  result.validation_of_truth_mm = error_figures(truth, data, problem.validation).rms_mm;
+  result.accept_of_truth_mm = error_figures(truth, data, poses_of(data, PoseSet::accept)).rms_mm;
+  return result;
 }
 
 /// Kinds in random order, each at most once, the one outside the catalogue last.
@@ -187,6 +233,10 @@ double EvolutionFigures::validation_with(std::size_t most) const {
   for (const FrontPoint& point : front)
     if (point.causes <= most) least = std::min(least, point.validation_rms_mm);
   return least;
+}
+
+double EvolutionFigures::validation_with_first(std::size_t most) const {
+  return std::ranges::min(std::span(validation_of_first_mm).first(std::min(most + 1, validation_of_first_mm.size())));
 }
 
 EvolutionCase run_measured(const std::string& name, const DataSet& data, const DeclaredModel& declared,

@@ -29,6 +29,9 @@ struct CorrectionFigures {
 /// What one diagnosis left.
 struct EvolutionFigures {
   std::vector<FrontPoint> front;
+  /// Of the first causes that the loop added, fitted anew: rms error of the same validation poses by their number, from
+  /// none; without evolution only.
+  std::vector<double> validation_of_first_mm;
   std::size_t causes = 0, effects = 0;          ///< of the chosen model
   double validation_mm = 0.0, accept_mm = 0.0;  ///< rms; validation while it was unseen
   std::size_t true_causes_named = 0;            ///< of a simulated arm
@@ -41,6 +44,8 @@ struct EvolutionFigures {
 
   /// The least error on the validation poses with at most so many causes.
   double validation_with(std::size_t causes) const;
+  /// The same of the causes that the loop added first.
+  double validation_with_first(std::size_t causes) const;
 };
 
 struct EvolutionCase {
@@ -49,6 +54,8 @@ struct EvolutionCase {
   std::size_t true_causes = 0;  ///< undeclared ones of a simulated arm, one outside the catalogue among them or not
   bool outside = false;
   EvolutionFigures without, with;
+  /// Of the model of all that was hidden in a simulated arm and nothing else, fitted like any other.
+  double validation_of_truth_mm = 0.0, accept_of_truth_mm = 0.0;
 };
 
 /// How many undeclared causes a simulated arm has, and whether the first of them is outside the catalogue.

@@ -125,6 +125,7 @@ class Bench {
   void write_table() const;
   void write_seeds() const;
   void write_corrections() const;
+  void write_fronts() const;
   void write_totals() const;
 
   Options options_;
@@ -141,6 +142,9 @@ void Bench::write_json() const {
                                 {"true_causes", one->true_causes},
                                 {"outside", one->outside},
                                 {"without", json_of(one->without, simulated)},
+                                {"validation_of_first_mm", one->without.validation_of_first_mm},
+                                {"validation_of_truth_mm", one->validation_of_truth_mm},
+                                {"accept_of_truth_mm", one->accept_of_truth_mm},
                                 {"with", json_of(one->with, simulated)}}
               << '\n';
   }
@@ -197,8 +201,23 @@ void Bench::write_corrections() const {
              "short forms", "accept with them", "least term, urad", "bound / limit", rows);
 }
 
+void Bench::write_fronts() const {
+  fmt::print("validation error of the front with evolution, over that\n{:<10}{:>22}{:>10}{:>34}{:>10}\n", "",
+             "without it, median", "largest", "of the causes added first, median", "largest");
+  for (std::size_t causes = 1; causes <= kMostOfFront; ++causes) {
+    std::vector<double> pruned, first;
+    for (const auto& one : cases_) {
+      if (!one) continue;
+      pruned.push_back(one->with.validation_with(causes) / one->without.validation_with(causes));
+      first.push_back(one->with.validation_with(causes) / one->without.validation_with_first(causes));
+    }
+    fmt::print("{:>3} causes{:>22.3f}{:>10.3f}{:>34.3f}{:>10.3f}\n", causes, quantile(pruned, 0.5),
+               quantile(pruned, 1.0), quantile(first, 0.5), quantile(first, 1.0));
+  }
+}
+
 void Bench::write_totals() const {
-  std::vector<double> accept, all_named_with, all_named_without, class_with, class_without, outside;
+  std::vector<double> accept, all_named_with, all_named_without, class_with, class_without, outside, truth, mistaken;
   for (const auto& one : cases_) {
     if (!one) continue;
     accept.push_back(one->with.accept_mm / one->without.accept_mm);
@@ -210,6 +229,8 @@ void Bench::write_totals() const {
     all_named_without.push_back(is_exact(one->without));
     class_with.push_back(one->with.is_exact_but_for_class ? 1.0 : 0.0);
     class_without.push_back(one->without.is_exact_but_for_class ? 1.0 : 0.0);
+    truth.push_back(one->accept_of_truth_mm / one->with.accept_mm);
+    if (!is_exact(one->with)) mistaken.push_back(one->validation_of_truth_mm / one->with.validation_mm);
     if (one->outside) outside.push_back(one->with.outside_named ? 1.0 : 0.0);
   }
   const auto mean = [](const std::vector<double>& values) {
@@ -219,20 +240,19 @@ void Bench::write_totals() const {
   };
   fmt::print("\naccept error with evolution over that without: median {:.3f}, largest {:.3f}\n", quantile(accept, 0.5),
              quantile(accept, 1.0));
-  fmt::print("validation error of the front with evolution over that without, median, at\n");
-  for (std::size_t causes = 1; causes <= kMostOfFront; ++causes) {
-    std::vector<double> ratios;
-    for (const auto& one : cases_)
-      if (one) ratios.push_back(one->with.validation_with(causes) / one->without.validation_with(causes));
-    fmt::print("  {:>2} causes {:.3f}, largest {:.3f}\n", causes, quantile(ratios, 0.5), quantile(ratios, 1.0));
-  }
+  write_fronts();
   if (all_named_with.empty()) return;
   fmt::print("simulated arms of which all causes are named and nothing else: {:.3f} without, {:.3f} with\n",
              mean(all_named_without), mean(all_named_with));
   fmt::print(
-      "the same where one that these poses do not tell from it (cosine .98) may stand in a cause's place: {:.3f} "
-      "without, {:.3f} with\n",
+      "the same where one that these poses do not tell from it (cosine .98) may stand in a cause's place: "
+      "{:.3f} without, {:.3f} with\n",
       mean(class_without), mean(class_with));
+  fmt::print("the true causes, fitted, leave {:.3f} times the accept error in the median, {:.3f} at most\n",
+             quantile(truth, 0.5), quantile(truth, 1.0));
+  if (!mistaken.empty())
+    fmt::print("where not named exactly ({} arms) {:.3f} times the validation error, {:.3f} to {:.3f}\n",
+               mistaken.size(), quantile(mistaken, 0.5), quantile(mistaken, 0.0), quantile(mistaken, 1.0));
   if (!outside.empty())
     fmt::print("laws outside the catalogue that are recovered, with evolution: {:.3f} of {}\n", mean(outside),
                outside.size());
