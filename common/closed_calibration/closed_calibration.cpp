@@ -191,10 +191,11 @@ bool LoopPasses::evolve_corrections_again() {
 void LoopPasses::refit_with_validation() {
   const DeclaredModel& declared = job_.declared;
   LoopModels ends;
-  ends.after =
-      adopted_ ? *adopted_ : with_fixed_corrections(data_, declared, preparation_.declared, closed_.calibration.robot);
+  ends.after = adopted_ ? with_bounded_corrections(data_, declared, preparation_, poses_of(data_, PoseSet::calibration),
+                                                   *adopted_)
+                        : with_fixed_corrections(data_, declared, preparation_.declared, closed_.calibration.robot);
   ends.before = added_any(closed_.loop) ? before_ : ends.after;
-  std::optional<LastFit> last = last_fit(data_, declared, ends);
+  std::optional<LastFit> last = last_fit(data_, declared, preparation_, ends);
   const DiagnosisProblem problem{data_, declared, poses_of(data_, PoseSet::calibration),
                                  poses_of(data_, PoseSet::validation)};
   const ExplanationFront front = adopted_ ? front_ : pruned_front(problem, ends.after);

@@ -10,6 +10,7 @@
 
 #include "calibration/admissible.hpp"
 #include "calibration/joint_targets.hpp"
+#include "calibration/selection.hpp"
 #include "calibration/training.hpp"
 #include "closed_calibration/calibrated_model.hpp"
 #include "diagnosis/loop.hpp"
@@ -62,6 +63,18 @@ bool sees_more_at_last(const DataSet& data) {
   return poses_of_last_fit(data) != poses_of(data, PoseSet::calibration);
 }
 
+/// Per joint 0, or the limit that its correction may exceed.
+std::vector<double> limits_exceeded(const DataSet& data, const Preparation& preparation, const CorrectedRobot& robot) {
+  std::vector<double> exceeded_rad(robot.corrections.size(), 0.0);
+  const JointTargets targets = targets_about(data, preparation, robot);
+  for (const JointTraining& training : training_tables(robot.chain, targets, preparation.corrections)) {
+    const JointCorrection& correction = robot.corrections[training.joint];
+    if (!correction.is_neutral() && !is_bounded(correction, training))
+      exceeded_rad[training.joint] = correction_limit_rad(training);
+  }
+  return exceeded_rad;
+}
+
 std::string why_uncorrected(const DeclaredModel& declared, const Joint& joint) {
   if (!declared.joint_corrections) return "joint corrections are not declared";
   if (!is_revolute(joint)) return "a prismatic joint";
@@ -102,6 +115,28 @@ void drop_negligible_terms(DiagnosedModel& model) {
     if (std::abs(coefficient) < kSmallestCoefficient) coefficient = 0.0;
   }
   model.robot.corrections = model.smooth.corrections();
+}
+
+DiagnosedModel with_bounded_corrections(const DataSet& data, const DeclaredModel& declared,
+                                        const Preparation& preparation, const std::vector<std::size_t>& poses,
+                                        DiagnosedModel model) {
+  constexpr int kRounds = 10, kSteps = 3;
+  constexpr double kFirmer = 2.0;
+  const DiagnosisProblem problem{data, declared, poses, {}};
+  for (int round = 0; !model.smooth.terms.empty() && round < kRounds; ++round) {
+    const std::vector<double> exceeded_rad = limits_exceeded(data, preparation, model.robot);
+    if (std::ranges::none_of(exceeded_rad, [](double limit) { return limit > 0.0; })) break;
+    if (model.precision.size() == 0)
+      model.precision = linearize(problem, model).precision.tail(model.smooth.coefficients.size());
+    for (std::size_t i = 0; i < model.smooth.terms.size(); ++i) {
+      const double limit = exceeded_rad[static_cast<std::size_t>(model.smooth.terms[i].joint)];
+      double& precision = model.precision[static_cast<Eigen::Index>(i)];
+      if (limit > 0.0) precision = kFirmer * std::max(precision, 1.0 / limit);
+    }
+    model = refined(problem, std::move(model), kSteps);
+  }
+  drop_negligible_terms(model);
+  return model;
 }
 
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
@@ -181,18 +216,21 @@ std::optional<Calibration> calibration_of_best(const DataSet& data, const Declar
   if (sees_more_at_last(data)) unseen = unseen_validation(data, declared, before, best->robot);
   DiagnosedModel model = final_fit(data, declared, std::move(*best));
   drop_negligible_terms(model);
+  model = with_bounded_corrections(data, declared, preparation, poses_of_last_fit(data), std::move(model));
   Calibration calibration = calibration_of(data, declared, preparation, model);
   calibration.unseen = std::move(unseen);
   return calibration;
 }
 
-std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends) {
+std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
+                                LoopModels ends) {
   if (!sees_more_at_last(data)) return std::nullopt;
   UnseenValidation unseen = unseen_validation(data, declared, ends.before.robot, ends.after.robot);
   for (DiagnosedModel* model : {&ends.before, &ends.after}) {
     *model = final_fit(data, declared, std::move(*model));
     drop_negligible_terms(*model);
   }
+  ends.after = with_bounded_corrections(data, declared, preparation, poses_of_last_fit(data), std::move(ends.after));
   return LastFit{std::move(ends), std::move(unseen)};
 }
 

@@ -30,6 +30,13 @@ CorrectedRobot better_start(const DataSet& data, const DeclaredModel& declared, 
 /// Leaves terms out of a model's corrections that move nothing by a hundredth of a micrometre.
 void drop_negligible_terms(DiagnosedModel& model);
 
+/// The model with the smooth terms of a joint believed to be smaller for as long as its correction may exceed
+/// correction_limit_rad(): where few poses stand, sums of smooth terms go astray. Fitted to `poses`; negligible terms
+/// dropped.
+DiagnosedModel with_bounded_corrections(const DataSet& data, const DeclaredModel& declared,
+                                        const Preparation& preparation, const std::vector<std::size_t>& poses,
+                                        DiagnosedModel model);
+
 /// A calibration whose robot is a model of the loop: its numbers with standard errors, and what is left of the joints'
 /// errors with the corrections in place. Where these are from is said of those that the loop has made.
 Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
@@ -62,7 +69,7 @@ struct LoopModels {
 };
 
 struct LastFit {
-  LoopModels ends;          ///< fitted once more as final_fit() says, negligible terms dropped
+  LoopModels ends;          ///< fitted once more as final_fit() says; `after` with bounded corrections
   UnseenValidation unseen;  ///< of the ends before that
 };
 
@@ -72,6 +79,7 @@ ErrorBudget error_budget_of(const DataSet& data, const DeclaredModel& declared, 
                             const ExplanationFront& front, const DiagnosedModel& last, std::uint64_t seed);
 
 /// Nothing where it would change neither end.
-std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, LoopModels ends);
+std::optional<LastFit> last_fit(const DataSet& data, const DeclaredModel& declared, const Preparation& preparation,
+                                LoopModels ends);
 
 }  // namespace demecal::inline closed_calibration

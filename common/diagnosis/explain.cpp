@@ -13,6 +13,7 @@
 
 #include "data/data_set.hpp"
 #include "diagnosis/judgement.hpp"
+#include "diagnosis/rival_exchange.hpp"
 #include "diagnosis/scan.hpp"
 #include "effect_sets/fitted_set.hpp"
 #include "effects/effect.hpp"
@@ -146,17 +147,6 @@ std::vector<EffectSet> worth_having(std::vector<EffectSet> pruned, const std::ve
   return pruned;
 }
 
-/// As rivals_of() says, among the effects that were searched.
-std::vector<Rival> rivals_beside(const FittedSet& set, std::size_t place, const std::vector<PricedEffect>& effects) {
-  std::vector<Rival> rivals;
-  const Effect& own = effects[set.effects()[place]].effect;
-  for (const Alike& other : set.alike(place))
-    if (is_rival(own, effects[other.effect].effect, other.cosine, other.nats_behind))
-      rivals.push_back({effects[other.effect].effect, other.cosine, other.nats_behind});
-  keep_nearest(rivals);
-  return rivals;
-}
-
 /// Leaves effects out of the chosen model that the present one lacks and that do not stand the judgement.
 void judge_new_effects(const LoopEnd& end, const SetModels& models, const std::vector<PricedEffect>& effects,
                        const std::function<bool(const Round&)>& watch, Explained& found) {
@@ -213,6 +203,10 @@ Explained explained(const LoopEnd& end, const ExplanationSearch& search, const R
                   .model = end.model,
                   .best = {},
                   .rounds = {}};
+  if (search.variations > 0) {
+    ExplanationFront::Point& point = found.front.points[found.front.chosen];
+    point.set = with_better_rivals(end.problem, searched.models, searched.effects, std::move(point.set));
+  }
   const auto set_of = [&](std::size_t point) -> const std::vector<std::size_t>& {
     return found.front.points[point].set;
   };

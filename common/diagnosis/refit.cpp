@@ -48,20 +48,16 @@ std::vector<std::vector<Eigen::Index>> effect_column_indices(const Linearization
   return columns;
 }
 
-/// Rise of the sum of squares if these coefficients were zero (Wald).
+/// Rise of the sum of squares if these coefficients were zero (Wald). They are taken in their standard errors: what the
+/// poses tell nothing of is uncertain by so much more that beside it the rest would count as exact.
 double rise_without(const Linearization& linearization, const Effect& effect,
                     const std::vector<Eigen::Index>& columns) {
-  const auto m = static_cast<Eigen::Index>(columns.size());
-  Eigen::VectorXd values(m);
-  Eigen::MatrixXd covariance(m, m);
-  for (Eigen::Index i = 0; i < m; ++i) {
-    values[i] = effect.value(static_cast<std::size_t>(i)) + linearization.changes[columns[static_cast<std::size_t>(i)]];
-    for (Eigen::Index k = 0; k < m; ++k) {
-      covariance(i, k) =
-          linearization.covariance(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(k)]);
-    }
-  }
-  return values.dot(least_norm_solution(covariance, values));
+  const Eigen::MatrixXd covariance = linearization.covariance(columns, columns);
+  const Eigen::VectorXd unit = covariance.diagonal().cwiseMax(1e-300).cwiseSqrt().cwiseInverse();
+  Eigen::VectorXd values = linearization.changes(columns);
+  for (std::size_t i = 0; i < columns.size(); ++i) values[static_cast<Eigen::Index>(i)] += effect.value(i);
+  values.array() *= unit.array();
+  return values.dot(least_norm_solution(unit.asDiagonal() * covariance * unit.asDiagonal(), values));
 }
 
 /// The effect whose loss would shorten the description most, if any would.

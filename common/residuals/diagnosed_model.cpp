@@ -211,6 +211,7 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
 std::vector<std::vector<double>> precisions_of(const std::vector<Effect>& effects, const Robot& described,
                                                const std::vector<ArmState>& states) {
   constexpr double kUsualMotion = 2e-3;  ///< rad or m
+  constexpr double kLeastShare = 1e-6;   ///< of the most that another coefficient of the effect does
   std::vector<std::vector<double>> precisions(effects.size());
   in_pieces(effects.size(), [&](std::size_t i) {
     std::vector<double> squares(law_of(effects[i]).coefficients(effects[i], described).size(), 0.0);
@@ -221,8 +222,9 @@ std::vector<std::vector<double>> precisions_of(const std::vector<Effect>& effect
       for (const UnitMotion& motion : motions)
         squares[static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
     }
+    const double least = std::pow(kLeastShare, 2) * (squares.empty() ? 0.0 : std::ranges::max(squares));
     for (const double square : squares)
-      precisions[i].push_back(std::sqrt(square / static_cast<double>(states.size())) / kUsualMotion);
+      precisions[i].push_back(std::sqrt(std::max(square, least) / static_cast<double>(states.size())) / kUsualMotion);
   });
   return precisions;
 }

@@ -140,9 +140,10 @@ Diagnosis diagnose(const DataSet& data, const Job& job, const std::optional<Cali
   LoopResult found = close_loop(data, job.declared, loop_start(data, declared, declared.robot), options, watched);
   take_back_unjudged(data, found);
   drop_negligible_terms(found.before);
-  drop_negligible_terms(found.model);
-  LoopModels ends{std::move(found.before), std::move(found.model)};
-  std::optional<LastFit> last = last_fit(data, job.declared, ends);
+  LoopModels ends{std::move(found.before),
+                  with_bounded_corrections(data, job.declared, result.preparation, poses_of(data, PoseSet::calibration),
+                                           std::move(found.model))};
+  std::optional<LastFit> last = last_fit(data, job.declared, result.preparation, ends);
   ErrorBudget budget =
       error_budget_of(data, job.declared, ends.after, found.front, last ? last->ends.after : ends.after, job.seed);
   if (const auto best =

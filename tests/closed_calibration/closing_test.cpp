@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "calibration/selection.hpp"
+#include "calibration/training.hpp"
+#include "expression/bound.hpp"
 #include "lacking_arm.hpp"
 
 namespace demecal {
@@ -52,6 +57,50 @@ TEST(Closing, GivesDeclaredNumbersTheirStandardErrors) {
     EXPECT_NEAR(estimate.value, 0.0, 2e-3) << estimate.id.name();  // the data's frame is the base's
   }
   EXPECT_LT(calibration.index_after_mm2, calibration.index_before_mm2);
+}
+
+TEST(Closing, JudgesTheBestModelByPosesItHadNotSeenAsItDoesTheChosenOne) {
+  DataSet data = lacking_arm(6e-4, 2);
+  for (std::size_t i = 0; i < data.poses.size(); i += 4) data.poses[i].set = PoseSet::accept;
+  const Job job = looping_job();
+  const Preparation preparation = prepare(data, job);
+  const LoopResult found = looped(data, job, preparation);
+  const auto last = last_fit(data, job.declared, preparation, {found.before, found.model});
+  const auto best = calibration_of_best(data, job.declared, preparation, found.before.robot, found.model);
+  ASSERT_TRUE(last && best && best->unseen);
+  EXPECT_EQ(best->unseen->before_mm, last->unseen.before_mm);
+  EXPECT_EQ(best->unseen->after_mm, last->unseen.after_mm);
+  EXPECT_EQ(best->unseen->interval.quantile, last->unseen.interval.quantile);
+  EXPECT_NE(error_figures(best->robot, data, poses_of(data, PoseSet::validation)).rms_mm, best->unseen->after_mm);
+}
+
+/// A wave that hardly any pose tells apart from nothing, given to a joint that errs by nothing.
+TEST(Closing, HoldsCorrectionsWithinTheLimitOfTheirJoint) {
+  const DataSet data = lacking_arm(0.0, 4);
+  const Job job = looping_job();
+  const Preparation preparation = prepare(data, job);
+  const std::vector<std::size_t> poses = poses_of(data, PoseSet::calibration);
+  DiagnosedModel model = looped(data, job, preparation).model;
+  const auto over_limit = [&](const DiagnosedModel& one) {
+    double most = 0.0;
+    for (const JointTraining& training :
+         training_tables(one.robot.chain, targets_about(data, preparation, one.robot))) {
+      const JointCorrection& correction = one.robot.corrections[training.joint];
+      most = std::max(most,
+                      magnitude_bound(correction.formula(), correction.range_rad()) / correction_limit_rad(training));
+    }
+    return most;
+  };
+  ASSERT_LT(over_limit(model), 1.0);
+  model = with_bounded_corrections(data, job.declared, preparation, poses, model);
+  EXPECT_EQ(model.precision.size(), 0) << "nothing is believed anew where all joints are within";
+  for (std::size_t i = 0; i < model.smooth.terms.size(); ++i)
+    if (model.smooth.terms[i].joint == 5) model.smooth.coefficients[static_cast<Eigen::Index>(i)] = 2e-3;
+  model.robot.corrections = model.smooth.corrections();
+  ASSERT_GT(over_limit(model), 1.0);
+  model = with_bounded_corrections(data, job.declared, preparation, poses, model);
+  EXPECT_LT(over_limit(model), 1.001);
+  EXPECT_LT(error_figures(model.robot, data, poses).rms_mm, 0.12);
 }
 
 TEST(Closing, SummarisesTheJointsOfTheLoopsModel) {

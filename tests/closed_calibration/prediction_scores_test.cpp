@@ -241,7 +241,9 @@ TEST(PredictionInterval, IsToldBeforeTheLastFit) {
   const Fit fit = fit_declared(data, calibration, kIntervalDeclared, nominal_robot(data));
   const DiagnosisProblem of{data, kIntervalDeclared, calibration, {}};
   const DiagnosedModel model = refined(of, diagnosed_model(of, fit), 12);
-  const std::optional<LastFit> last = last_fit(data, kIntervalDeclared, {model, model});
+  Job job;
+  job.declared = kIntervalDeclared;
+  const std::optional<LastFit> last = last_fit(data, kIntervalDeclared, prepare(data, job), {model, model});
   ASSERT_TRUE(last);
   const PredictionInterval expected =
       prediction_interval(data, fitted_posterior(data, kIntervalDeclared, model.robot, calibration), model.robot);

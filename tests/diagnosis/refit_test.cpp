@@ -101,6 +101,28 @@ TEST(BackwardStep, LeavesAModelOfNeededEffectsAsItIs) {
   EXPECT_TRUE(outcome.dropped.empty());
 }
 
+/// Weight turns no joint's place about an axis that is upright.
+TEST(BackwardStep, KeepsAnEffectOfWhichPosesTellOnlyAPart) {
+  RandomStream stream{90, 6};
+  Robot robot = laden_arm(stream, Arm::modified);
+  robot.chain.base = Eigen::Isometry3d::Identity();
+  robot.gravity_mps2 = -9.81 * Eigen::Vector3d::UnitY();
+  KnownArm arm = arm_of(stream, robot);
+  Effect bending{.kind = "link_bending", .joint = 0, .form = "masses", .values = {4e-6, 0.0}};
+  arm.truth.effects = {bending};
+  measure_anyhow(arm, stream, {.noise_m = 5e-5}, 80);
+  const DiagnosisProblem problem{arm.data, kPlacedAndZeroed, all_poses(arm.data), {}};
+  bending.values.clear();
+  DiagnosedModel model = model_with(problem, arm, {bending});
+  LoopOutcome outcome;
+  eliminate_backward(problem, model, as_candidates({bending}), outcome);
+  ASSERT_EQ(model.robot.effects.size(), 1u);
+  const Effect& found = model.robot.effects[0];
+  EXPECT_NEAR(found.values[0], 4e-6, 4 * found.standard_errors[0]);
+  EXPECT_LT(std::abs(found.values[1]), 4e-6) << "nothing is made of what no pose tells";
+  EXPECT_GT(found.standard_errors[1], 1.0);
+}
+
 TEST(LeavesMore, IsSaidOfAModelThatErrsClearlyMoreWhateverAPoseFarOutSays) {
   RandomStream stream{90, 5};
   KnownArm arm = loose_arm(stream);

@@ -184,6 +184,7 @@ EvolutionFigures diagnosed(const DataSet& data, const DeclaredModel& declared, s
   figures.effects = robot.effects.size();
   figures.validation_mm = result.calibration.unseen ? result.calibration.unseen->after_mm : 0.0;
   figures.accept_mm = error_figures(robot, data, poses_of(data, PoseSet::accept)).rms_mm;
+  figures.fitted_mm = error_figures(robot, data, poses_of_last_fit(data)).rms_mm;
   figures.corrections = correction_figures(data, job, result);
   if (!evolve)
     figures.validation_of_first_mm = validation_of_first(problem_of(data, declared), result.loop.rounds, robot.effects);
@@ -208,10 +209,10 @@ EvolutionCase compared(std::string name, const DataSet& data, const DeclaredMode
                        .without = diagnosed(data, declared, seed, false, truths),
                        .with = diagnosed(data, declared, seed, true, truths)};
   if (truths.empty()) return result;
-  const DiagnosisProblem problem = problem_of(data, declared);
+  const DiagnosisProblem problem{data, declared, poses_of_last_fit(data), {}};
   const Fit start = fit_declared(data, problem.fitted, declared, nominal_robot(data));
   const CorrectedRobot truth = model_of(problem, start, truths).robot;
-  result.validation_of_truth_mm = error_figures(truth, data, problem.validation).rms_mm;
+  result.fitted_of_truth_mm = error_figures(truth, data, problem.fitted).rms_mm;
   result.accept_of_truth_mm = error_figures(truth, data, poses_of(data, PoseSet::accept)).rms_mm;
   return result;
 }

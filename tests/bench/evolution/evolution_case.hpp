@@ -34,6 +34,7 @@ struct EvolutionFigures {
   std::vector<double> validation_of_first_mm;
   std::size_t causes = 0, effects = 0;          ///< of the chosen model
   double validation_mm = 0.0, accept_mm = 0.0;  ///< rms; validation while it was unseen
+  double fitted_mm = 0.0;                       ///< rms, of the poses of the last fit
   std::size_t true_causes_named = 0;            ///< of a simulated arm
   bool outside_named = false;                   ///< the one outside the catalogue
   std::vector<std::string> missed;              ///< true causes that are not named
@@ -54,8 +55,8 @@ struct EvolutionCase {
   std::size_t true_causes = 0;  ///< undeclared ones of a simulated arm, one outside the catalogue among them or not
   bool outside = false;
   EvolutionFigures without, with;
-  /// Of the model of all that was hidden in a simulated arm and nothing else, fitted like any other.
-  double validation_of_truth_mm = 0.0, accept_of_truth_mm = 0.0;
+  /// Of the model of all that was hidden in a simulated arm and nothing else, after the last fit.
+  double fitted_of_truth_mm = 0.0, accept_of_truth_mm = 0.0;
 };
 
 /// How many undeclared causes a simulated arm has, and whether the first of them is outside the catalogue.
