@@ -204,8 +204,9 @@ Explained explained(const LoopEnd& end, const ExplanationSearch& search, const R
                   .best = {},
                   .rounds = {}};
   if (search.variations > 0) {
-    ExplanationFront::Point& point = found.front.points[found.front.chosen];
-    point.set = with_better_rivals(end.problem, searched.models, searched.effects, std::move(point.set));
+    const std::vector<std::size_t>& chosen = found.front.points[found.front.chosen].set;
+    std::vector<std::size_t> better = with_better_rivals(end.problem, searched.models, searched.effects, chosen);
+    if (better != chosen) choose_set(end.problem, end.model, searched.models, std::move(better), found.front);
   }
   const auto set_of = [&](std::size_t point) -> const std::vector<std::size_t>& {
     return found.front.points[point].set;

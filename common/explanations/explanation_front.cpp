@@ -150,6 +150,16 @@ bool is_told_by_all(const DiagnosedModel& model, const ExplanationFront& front) 
          front.points[1].validation_rms_mm < front.points.front().validation_rms_mm;
 }
 
+/// In the place of the one of as many causes.
+void insert_chosen(ExplanationFront::Point point, ExplanationFront& front) {
+  std::erase_if(front.points, [&](const ExplanationFront::Point& one) { return one.causes == point.causes; });
+  const auto place = std::ranges::lower_bound(front.points, point.causes, {}, &ExplanationFront::Point::causes);
+  front.chosen = static_cast<std::size_t>(place - front.points.begin());
+  front.points.insert(place, std::move(point));
+  const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
+  front.best = static_cast<std::size_t>(best - front.points.begin());
+}
+
 }  // namespace
 
 SquaredErrors_mm2 squared_errors(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot) {
@@ -199,6 +209,15 @@ bool does_as_well(const DiagnosisProblem& problem, const DiagnosedModel& model, 
                              squared_errors(problem.data, judging, other.robot));
 }
 
+void choose_set(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
+                std::vector<std::size_t> set, ExplanationFront& front) {
+  const Judge judge{problem, models, judging_poses(problem, model.robot)};
+  ExplanationFront::Point point{.set = std::move(set)};
+  point.causes = FittedSet(models.problem(), point.set).causes().size();
+  point.validation_rms_mm = std::sqrt(mean(judge.to_first_order(point.set)));
+  insert_chosen(std::move(point), front);
+}
+
 void choose(const DiagnosisProblem& problem, const DiagnosedModel& model, ExplanationFront& front) {
   ExplanationFront::Point point;
   for (std::size_t i = 0; i < front.effects.size(); ++i)
@@ -208,12 +227,7 @@ void choose(const DiagnosisProblem& problem, const DiagnosedModel& model, Explan
   point.validation_rms_mm =
       std::sqrt(mean(squared_errors(problem.data, judging_poses(problem, model.robot), model.robot)));
   if (!front.points.empty()) front.points.erase(front.points.begin() + static_cast<std::ptrdiff_t>(front.chosen));
-  std::erase_if(front.points, [&](const ExplanationFront::Point& one) { return one.causes == point.causes; });
-  const auto place = std::ranges::lower_bound(front.points, point.causes, {}, &ExplanationFront::Point::causes);
-  front.chosen = static_cast<std::size_t>(place - front.points.begin());
-  front.points.insert(place, std::move(point));
-  const auto best = std::ranges::min_element(front.points, {}, &ExplanationFront::Point::validation_rms_mm);
-  front.best = static_cast<std::size_t>(best - front.points.begin());
+  insert_chosen(std::move(point), front);
 }
 
 ExplanationFront pruned_front(const DiagnosisProblem& problem, const DiagnosedModel& model) {

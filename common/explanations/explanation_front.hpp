@@ -50,6 +50,11 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
 /// Whether the model errs at problem.validation no more than the rule of judged_front() allows beside another one.
 bool does_as_well(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& other);
 
+/// Chooses a set that does better than the chosen one. It takes the place of a set of as many causes; one of fewer or
+/// more stays beside it.
+void choose_set(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,
+                std::vector<std::size_t> set, ExplanationFront& front);
+
 /// Makes `model`, fitted to problem.fitted, the chosen point of the front, whatever was chosen before.
 void choose(const DiagnosisProblem& problem, const DiagnosedModel& model, ExplanationFront& front);
 

@@ -54,7 +54,9 @@ Preparation start_of(const DataSet& data, const Job& job, const std::optional<Ca
   model.robot = with_tools_of_stations(std::move(model.robot), data);
   require_same_nominal_arm(model, data);
   model.robot.described = data.robot;
-  return prepare_from(data, job.declared, model.robot, job.targets);
+  Preparation preparation = prepare_from(data, job.declared, model.robot, job.targets);
+  preparation.corrections = job.corrections;
+  return preparation;
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ TEST(BackwardStep, LeavesAModelOfNeededEffectsAsItIs) {
 /// Weight turns no joint's place about an axis that is upright.
 TEST(BackwardStep, KeepsAnEffectOfWhichPosesTellOnlyAPart) {
   RandomStream stream{90, 6};
-  Robot robot = laden_arm(stream, Arm::modified);
+  Robot robot = laden_arm(stream, Arm::standard);
   robot.chain.base = Eigen::Isometry3d::Identity();
   robot.gravity_mps2 = -9.81 * Eigen::Vector3d::UnitY();
   KnownArm arm = arm_of(stream, robot);
