@@ -152,7 +152,7 @@ void judge_new_effects(const LoopEnd& end, const SetModels& models, const std::v
                        const std::function<bool(const Round&)>& watch, Explained& found) {
   constexpr int kSteps = 3;
   const std::vector<std::size_t>& set = found.front.points[found.front.chosen].set;
-  found.model = refined(end.problem, models.with(set), kSteps);
+  found.model = model_of(end.problem, models, found.front.points[found.front.chosen]);
   found.rounds = judged_together(end, found.model);
   const FittedSet fitted(models.problem(), set);
   in_pieces(found.rounds.size(), [&](std::size_t i) {
@@ -197,7 +197,6 @@ SearchedSets searched_sets(const LoopEnd& end, const ExplanationSearch& search, 
 
 Explained explained(const LoopEnd& end, const ExplanationSearch& search, const RandomStream& random,
                     const std::function<bool(const Round&)>& watch) {
-  constexpr int kSteps = 3;
   const SearchedSets searched = searched_sets(end, search, random);
   Explained found{.front = judged_front(end.problem, end.model, searched.models, searched.effects, searched.sets),
                   .model = end.model,
@@ -220,7 +219,7 @@ Explained explained(const LoopEnd& end, const ExplanationSearch& search, const R
   if (found.front.best != found.front.chosen)
     found.best = is_present(found.front.best)
                      ? end.model
-                     : refined(end.problem, searched.models.with(set_of(found.front.best)), kSteps);
+                     : model_of(end.problem, searched.models, found.front.points[found.front.best]);
   return found;
 }
 

@@ -35,32 +35,51 @@ std::array<double, 2> fall_interval(const SquaredErrors_mm2& without, const Squa
   return {falls_mm[kDraws / 40], falls_mm[kDraws - 1 - kDraws / 40]};
 }
 
-/// The effects of any of the front's sets, then those of the model that are in none.
-std::vector<PricedEffect> effects_of_both(const ExplanationFront& front, const DiagnosedModel& model) {
-  std::vector<PricedEffect> effects = front.effects;
+/// The effects of the front's sets, the first `in_front`, then those of the model that are in none.
+struct Considered {
+  std::vector<PricedEffect> effects{};
+  std::size_t in_front = 0;
+  std::vector<std::vector<std::size_t>> sets{};  ///< of the front's points, as places among the effects
+};
+
+Considered considered_of(const ExplanationFront& front, const DiagnosedModel& model) {
+  Considered considered;
+  std::vector<std::size_t> place(front.effects.size(), front.effects.size());
+  for (const ExplanationFront::Point& point : front.points) {
+    std::vector<std::size_t>& set = considered.sets.emplace_back();
+    for (const std::size_t effect : point.set) {
+      if (place[effect] == front.effects.size()) {
+        place[effect] = considered.effects.size();
+        considered.effects.push_back(front.effects[effect]);
+      }
+      set.push_back(place[effect]);
+    }
+  }
+  considered.in_front = considered.effects.size();
   for (PricedEffect& own : effects_of(model)) {
     const auto is_it = [&](const PricedEffect& one) { return one.effect.same_law_as(own.effect); };
-    if (std::ranges::none_of(effects, is_it)) effects.push_back(std::move(own));
+    if (std::ranges::none_of(considered.effects, is_it)) considered.effects.push_back(std::move(own));
   }
-  return effects;
+  return considered;
 }
 
 /// What a model leaves at some poses, and to first order what it leaves with other effects: the mean square of a set is
 /// the model's own and by how much that of the set, linearised about the model, exceeds that of the model's own set.
 class ErrorsOfSets {
  public:
-  /// Sets are of `effects`, those of effects_of_both(), of which the front has the first so many.
-  ErrorsOfSets(const DiagnosisProblem& problem, const DiagnosedModel& model, const std::vector<PricedEffect>& effects,
-               std::size_t in_front, std::span<const std::size_t> poses)
+  /// Sets are of the considered effects.
+  ErrorsOfSets(const DiagnosisProblem& problem, const DiagnosedModel& model, const Considered& considered,
+               std::span<const std::size_t> poses)
       : data_(problem.data),
         poses_(poses),
-        models_(problem, model, effects),
-        in_front_(in_front),
+        models_(problem, model, considered.effects),
+        in_front_(considered.in_front),
         held_(of(models_.held())),
         own_mm2_(mean(squared_errors(data_, poses_, model.robot))) {
     for (const Effect& own : model.robot.effects) {
       const auto is_it = [&](const PricedEffect& one) { return one.effect.same_law_as(own); };
-      place_.push_back(static_cast<std::size_t>(std::ranges::find_if(effects, is_it) - effects.begin()));
+      const auto place = std::ranges::find_if(considered.effects, is_it);
+      place_.push_back(static_cast<std::size_t>(place - considered.effects.begin()));
     }
   }
 
@@ -114,18 +133,18 @@ ErrorBudget error_budget(const DiagnosisProblem& problem, const DiagnosedModel& 
   if (causes.empty() || judging.empty()) return budget;
   const DiagnosisProblem last_problem{problem.data, problem.declared, {last_fitted.begin(), last_fitted.end()}, {}};
   const std::vector<std::size_t> accept = poses_of(problem.data, PoseSet::accept);
-  const std::vector<PricedEffect> effects = effects_of_both(front, model);
-  const ErrorsOfSets errors(problem, model, effects, front.effects.size(), judging);
-  const ErrorsOfSets last_errors(last_problem, last, effects, front.effects.size(), accept);
+  const Considered considered = considered_of(front, model);
+  const ErrorsOfSets errors(problem, model, considered, judging);
+  const ErrorsOfSets last_errors(last_problem, last, considered, accept);
   budget.front.resize(front.points.size());
   in_pieces(front.points.size(), [&](std::size_t i) {
     const ExplanationFront::Point& at = front.points[i];
     FrontPoint& point = budget.front[i];
     point = {.causes = at.causes, .chosen = i == front.chosen};
-    point.validation_rms_mm = point.chosen ? errors.rms_of_model_mm() : errors.rms_mm(errors.whole(at.set));
+    point.validation_rms_mm = point.chosen ? errors.rms_of_model_mm() : errors.rms_mm(errors.whole(considered.sets[i]));
     if (!accept.empty())
       point.accept_rms_mm =
-          point.chosen ? last_errors.rms_of_model_mm() : last_errors.rms_mm(last_errors.whole(at.set));
+          point.chosen ? last_errors.rms_of_model_mm() : last_errors.rms_mm(last_errors.whole(considered.sets[i]));
   });
   const double with_mm = errors.rms_of_model_mm(), bare_mm = errors.rms_mm({});
   const std::uint64_t name = random.name();

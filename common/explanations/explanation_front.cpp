@@ -115,9 +115,8 @@ struct Judge {
   }
   /// Gives the model's errors where its numbers are those that the fitted poses want, if these are smaller.
   void refine(JudgedSet& one) const {
-    constexpr int kSteps = 3;
-    const DiagnosedModel model = refined(problem, models.with(one.point.set), kSteps);
-    SquaredErrors_mm2 errors = squared_errors(problem.data, poses, model.robot);
+    one.point.refined = model_of(problem, models, one.point);
+    SquaredErrors_mm2 errors = squared_errors(problem.data, poses, one.point.refined->robot);
     if (mean(errors) >= mean(one.errors)) return;
     one.errors = std::move(errors);
     one.point.validation_rms_mm = std::sqrt(mean(one.errors));
@@ -182,6 +181,12 @@ std::vector<PricedEffect> effects_of(const DiagnosedModel& model) {
   std::vector<PricedEffect> effects;
   for (const Effect& effect : model.robot.effects) effects.push_back({effect, 0.0});
   return effects;
+}
+
+DiagnosedModel model_of(const DiagnosisProblem& problem, const SetModels& models,
+                        const ExplanationFront::Point& point) {
+  constexpr int kSteps = 3;
+  return point.refined ? *point.refined : refined(problem, models.with(point.set), kSteps);
 }
 
 ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedModel& model, const SetModels& models,

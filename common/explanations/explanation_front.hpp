@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,6 +30,7 @@ struct ExplanationFront {
     std::vector<std::size_t> set;  ///< places among `effects`
     std::size_t causes = 0;
     double validation_rms_mm = 0.0;
+    std::optional<DiagnosedModel> refined{};  ///< the set's model at its least-squares values, where it was needed
   };
   std::vector<Point> points;  ///< by number of causes, from none
   std::size_t chosen = 0;     ///< among `points`: the fewest causes that do as well, see judged_front()
@@ -49,6 +51,9 @@ ExplanationFront judged_front(const DiagnosisProblem& problem, const DiagnosedMo
 
 /// Whether the model errs at problem.validation no more than the rule of judged_front() allows beside another one.
 bool does_as_well(const DiagnosisProblem& problem, const DiagnosedModel& model, const DiagnosedModel& other);
+
+/// The model of one of the front's sets at its least-squares values.
+DiagnosedModel model_of(const DiagnosisProblem& problem, const SetModels& models, const ExplanationFront::Point& point);
 
 /// Chooses a set that does better than the chosen one. It takes the place of a set of as many causes; one of fewer or
 /// more stays beside it.

@@ -212,19 +212,22 @@ std::vector<std::vector<double>> precisions_of(const std::vector<Effect>& effect
                                                const std::vector<ArmState>& states) {
   constexpr double kUsualMotion = 2e-3;  ///< rad or m
   constexpr double kLeastShare = 1e-6;   ///< of the most that another coefficient of the effect does
+  constexpr std::size_t kEnough = 1000;  ///< states that tell how large a motion is
+  const std::size_t step = std::max<std::size_t>(states.size() / kEnough, 1);
   std::vector<std::vector<double>> precisions(effects.size());
   in_pieces(effects.size(), [&](std::size_t i) {
     std::vector<double> squares(law_of(effects[i]).coefficients(effects[i], described).size(), 0.0);
     std::vector<UnitMotion> motions;
-    for (const ArmState& state : states) {
+    double count = 0.0;
+    for (std::size_t state = 0; state < states.size(); state += step, ++count) {
       motions.clear();
-      append_unit_motions(effects[i], described, state, motions);
+      append_unit_motions(effects[i], described, states[state], motions);
       for (const UnitMotion& motion : motions)
         squares[static_cast<std::size_t>(motion.coefficient)] += motion.size * motion.size;
     }
     const double least = std::pow(kLeastShare, 2) * (squares.empty() ? 0.0 : std::ranges::max(squares));
     for (const double square : squares)
-      precisions[i].push_back(std::sqrt(std::max(square, least) / static_cast<double>(states.size())) / kUsualMotion);
+      precisions[i].push_back(std::sqrt(std::max(square, least) / count) / kUsualMotion);
   });
   return precisions;
 }

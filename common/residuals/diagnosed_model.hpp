@@ -58,9 +58,9 @@ DiagnosedModel diagnosed_model(const DiagnosisProblem& problem, const Fit& start
 RowMatrix unwhitened(const ResidualField& field, RowMatrix rows);
 
 /// One over the standard deviation with which each coefficient of each effect is believed to be zero: that of a motion
-/// of the arm by a few thousandths (rad, m) at the states. It keeps those apart from running away that these poses
-/// hardly tell from one another, and vanishes beside what the poses do show. A coefficient that does nothing at these
-/// states is believed to be no larger than a million times what its effect's others are.
+/// of the arm by a few thousandths (rad, m) at the states, or a thousand of them. It keeps those apart from running
+/// away that these poses hardly tell from one another, and vanishes beside what the poses do show. A coefficient that
+/// does nothing at these states is believed to be no larger than a million times what its effect's others are.
 std::vector<std::vector<double>> precisions_of(const std::vector<Effect>& effects, const Robot& described,
                                                const std::vector<ArmState>& states);
 

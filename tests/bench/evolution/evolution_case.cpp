@@ -154,15 +154,22 @@ std::vector<double> validation_of_first(const DiagnosisProblem& problem, const s
                                         const std::vector<Effect>& kept) {
   const Fit start = fit_declared(problem.data, problem.fitted, problem.declared, nominal_robot(problem.data));
   std::vector<double> rms_mm{rms_of_judging_mm(problem, model_of(problem, start, {}).robot)};
-  std::vector<Effect> effects;
+  CorrectedRobot next;
+  const auto add_error = [&] {
+    const double last_mm = rms_mm.back();
+    rms_mm.resize(causes_of(next).size() + 1, last_mm);
+    rms_mm.back() = rms_of_judging_mm(problem, model_of(problem, start, next.effects).robot);
+  };
   for (const Round& round : rounds) {
     if (round.verdict != Verdict::added) continue;
     if (std::ranges::none_of(kept, [&](const Effect& one) { return one.same_law_as(round.effect); })) continue;
-    effects.push_back(round.effect);
-    const DiagnosedModel model = model_of(problem, start, effects);
-    rms_mm.resize(std::max(rms_mm.size(), causes_of(model.robot).size() + 1), rms_mm.back());
-    rms_mm.back() = rms_of_judging_mm(problem, model.robot);
+    const std::size_t before = causes_of(next).size();
+    CorrectedRobot longer = next;
+    longer.effects.push_back(round.effect);
+    if (before > 0 && causes_of(longer).size() > before) add_error();
+    next = std::move(longer);
   }
+  if (!next.effects.empty()) add_error();
   return rms_mm;
 }
 
