@@ -43,7 +43,7 @@ Places with_rivals(const Places& set, const std::vector<Places>& rivals) {
 
 /// The set with one of its effects exchanged for a rival by which it is described shortest, worthless ones left out;
 /// nothing where none is shorter. `rivals` are of the problem's effects.
-std::optional<FittedSet> exchanged(const FittedSet& present, const std::vector<Places>& rivals) {
+std::optional<FittedSet> with_one_exchange(const FittedSet& present, const std::vector<Places>& rivals) {
   FittedSet best = present;
   leave_out_worthless(best);  // that needs no exchange
   std::optional<FittedSet> found;
@@ -90,7 +90,7 @@ std::vector<std::size_t> with_better_rivals(const DiagnosisProblem& problem, con
   FittedSet present(models_of_all.problem(), models_of_all.held());
   bool is_changed = false;
   for (int i = 0; i < kMostExchanges; ++i) {
-    auto better = exchanged(present, among_considered);
+    auto better = with_one_exchange(present, among_considered);
     if (!better) break;
     present = *std::move(better);
     is_changed = true;
