@@ -32,6 +32,8 @@ struct JointSummary {
   double before_rad = 0.0;
   double after_rad = 0.0;
   double bound_rad = 0.0;  ///< of the correction over its range
+  /// correction_limit_rad() where the bound comes within a tenth of it: the poses ask for as much or more.
+  std::optional<double> limit_rad{};
   std::vector<double> discontinuities_rad{};
   std::string note;  ///< why a joint was left neutral; empty where it was not
   FormulaOrigin origin = FormulaOrigin::unstated;
@@ -45,6 +47,9 @@ std::string to_string(FormulaOrigin origin);
 /// are no targets.
 std::vector<JointSummary> joint_summaries(const JointTargets& declared, const JointTargets& now,
                                           const CorrectedRobot& robot);
+
+/// Sets the limits of the summaries; `training` as training_tables() makes them.
+void set_limits(const std::vector<JointTraining>& training, std::vector<JointSummary>& summaries);
 
 /// All that stands before the joint corrections are evolved.
 struct Preparation {

@@ -149,6 +149,8 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
   JointTargets now;
   if (has_corrections(result.robot)) now = targets_about(data, preparation, result.robot);
   result.joints = joint_summaries(preparation.targets, now, result.robot);
+  if (has_corrections(result.robot))
+    set_limits(training_tables(result.robot.chain, now, preparation.corrections), result.joints);
   for (JointSummary& summary : result.joints) {
     if (summary.kept) continue;
     summary.note = why_uncorrected(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);

@@ -150,6 +150,11 @@ std::string origin_line(const JointEntry& joint) {
   return joint.origin == "evolved" ? "<p class=\"note\">This formula evolved.</p>\n" : "";
 }
 
+std::string limit_line(const JointEntry& joint) {
+  const std::string limit = limit_sentence(joint);
+  return limit.empty() ? "" : "<p class=\"note\">" + escaped(limit) + "</p>\n";
+}
+
 bool holds_what_evolved(const JointEntry& joint) {
   return joint.kept && joint.origin != "smooth_terms";
 }
@@ -166,7 +171,7 @@ std::string joint_card(const JointEntry& joint, const FitnessHistory& history) {
                                                 mrad(joint.as_evolved_error_rad), escaped(joint.as_evolved));
   return "<article class=\"joint\">\n" + joint_head(joint) + note +
          (curve.empty() ? "" : "<div class=\"pair\">\n" + curve + "</div>\n") + formula_line(joint) +
-         origin_line(joint) + evolved +
+         origin_line(joint) + limit_line(joint) + evolved +
          (evolution.empty()
               ? ""
               : fmt::format("<details><summary class=\"soft\">{}</summary>\n{}</details>\n",

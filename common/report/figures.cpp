@@ -190,6 +190,19 @@ std::string EffectEntry::size() const {
   return amplitude ? amount(*amplitude, unit) : "";
 }
 
+std::string limit_sentence(const JointEntry& joint) {
+  constexpr double kAbove = 1.001;
+  if (!joint.limit_rad || !joint.bound_rad) return {};
+  const double limit_mrad = 1e3 * *joint.limit_rad, bound_mrad = 1e3 * *joint.bound_rad;
+  if (bound_mrad > kAbove * limit_mrad)
+    return fmt::format(
+        "This correction may reach {:.3g} mrad, above its limit of {:.3g} mrad: measure more poses before you trust "
+        "it.",
+        bound_mrad, limit_mrad);
+  return fmt::format("The poses ask for more than its limit of {:.3g} mrad, at which this correction is held.",
+                     limit_mrad);
+}
+
 std::string origins_sentence(const Report& report) {
   const auto of_origin = [&](const char* origin) {
     return std::ranges::count(report.joints, origin, &JointEntry::origin);

@@ -113,6 +113,9 @@ std::string doubt_sentence(const Report& report);
 /// What the model's rms error of each set is without suspected outliers, and with them; empty where there are none.
 std::string outliers_sentence(const Report& report);
 
+/// That a correction was held back at its limit, or may exceed it; empty where it is well within.
+std::string limit_sentence(const JointEntry& joint);
+
 /// Which of the corrections are formulas as they evolved and which are sums of smooth terms in their place, and what
 /// the evolved ones would leave; empty where nothing evolved or a report does not say where its corrections are from.
 std::string origins_sentence(const Report& report);

@@ -97,6 +97,7 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
                    .mean_abs_error_rad = {if_finite(summary.before_rad), if_finite(summary.after_rad)},
                    .range_rad = {},
                    .bound_rad = if_finite(summary.bound_rad),
+                   .limit_rad = {},
                    .discontinuities_rad = summary.discontinuities_rad,
                    .with_functions = {},
                    .note = summary.note,
@@ -110,10 +111,13 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
   return entry;
 }
 
-/// `joints`: as they were calibrated, for a model file does not say where its formulas are from.
+/// `joints`: as they were calibrated, for a model file says neither where its formulas are from nor what held them.
 void add_origins(const std::vector<JointSummary>& joints, std::vector<JointEntry>& entries) {
-  for (std::size_t joint = 0; joint < std::min(joints.size(), entries.size()); ++joint)
-    if (entries[joint].kept) entries[joint].origin = to_string(joints[joint].origin);
+  for (std::size_t joint = 0; joint < std::min(joints.size(), entries.size()); ++joint) {
+    if (!entries[joint].kept) continue;
+    entries[joint].origin = to_string(joints[joint].origin);
+    entries[joint].limit_rad = joints[joint].limit_rad;
+  }
 }
 
 /// What joints evolved beside what they kept, where each learnt from its own targets: the corrections of distal

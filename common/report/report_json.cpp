@@ -143,6 +143,7 @@ void fields(Visit& visit, Like<JointEntry> auto& joint) {
   visit("joint", joint.joint, "kept", joint.kept, "expression", joint.expression, "mean_abs_error_rad",
         joint.mean_abs_error_rad, "range_rad", joint.range_rad, "bound_rad", joint.bound_rad, "discontinuities_rad",
         joint.discontinuities_rad);
+  visit.when(joint.limit_rad.has_value(), "limit_rad", joint.limit_rad);
   visit.when(!joint.with_functions.empty(), "with_functions", joint.with_functions);
   visit.when(!joint.note.empty(), "note", joint.note);
   visit.when(!joint.origin.empty(), "origin", joint.origin);

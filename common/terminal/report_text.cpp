@@ -134,9 +134,11 @@ std::string contacts(const Report& report) {
   return text;
 }
 
-/// The correction as people read it, or that it is too long for that.
+/// The correction as people read it, or that it is too long for that, and whether it was held back.
 std::string correction_words(const JointEntry& joint) {
-  return joint.short_form.empty() ? "corrected by a formula too long to show: see model.yaml" : joint.short_form;
+  const std::string limit = limit_sentence(joint);
+  return (joint.short_form.empty() ? "corrected by a formula too long to show: see model.yaml" : joint.short_form) +
+         (limit.empty() ? "" : ". " + limit);
 }
 
 /// What came of evolution.

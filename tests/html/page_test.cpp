@@ -10,6 +10,7 @@
 #include "errors/input_error.hpp"
 #include "made_up_loop.hpp"
 #include "page_reading.hpp"
+#include "report/figures.hpp"
 
 namespace demecal {
 namespace {
@@ -153,6 +154,7 @@ TEST(ReportPage, ShowsEveryFormulaNoteNameAndFact) {
     EXPECT_THAT(words, HasSubstr(joint.kept ? "g(theta) = " + joint.expression : joint.note));
     EXPECT_THAT(words, HasSubstr(joint.short_form));
     EXPECT_THAT(words, HasSubstr(joint.as_evolved));
+    EXPECT_THAT(words, HasSubstr(limit_sentence(joint)));
   }
   EXPECT_THAT(words, HasSubstr("Of the 4 corrections in the model 1 is a formula as it evolved;"));
   EXPECT_THAT(words, HasSubstr("This is a sum of smooth terms that was fitted to the poses"));

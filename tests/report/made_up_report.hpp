@@ -121,6 +121,8 @@ inline Report made_up_report() {
   report.joints[0].origin = "evolved";
   report.joints[1].origin = "evolved_and_smooth_terms";
   report.joints[2].origin = report.joints[4].origin = "smooth_terms";
+  report.joints[0].limit_rad = 1.01 * *report.joints[0].bound_rad;
+  report.joints[1].limit_rad = 0.5 * *report.joints[1].bound_rad;
   report.joints[2].short_form = "0.61 mrad sin(q3 + 80 deg)";
   for (JointEntry& joint : report.joints) {
     joint.as_evolved = "0.0003 * SIN(theta)";

@@ -6,6 +6,7 @@
 
 #include "made_up_report.hpp"
 #include "page_reading.hpp"
+#include "report/figures.hpp"
 #include "screen_reading.hpp"
 
 namespace demecal {
@@ -36,7 +37,10 @@ TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
   for (const JointEntry& joint : report.joints) {
     EXPECT_THAT(text, HasSubstr("\n  " + std::to_string(joint.joint) + "  "));
     EXPECT_THAT(text, HasSubstr(joint.short_form));
+    EXPECT_THAT(unwrapped(text), HasSubstr(limit_sentence(joint)));
   }
+  EXPECT_THAT(unwrapped(text), HasSubstr("at which this correction is held."));
+  EXPECT_THAT(unwrapped(text), HasSubstr("above its limit of"));
   for (const std::string& pose : report.poses.outliers) EXPECT_THAT(text, HasSubstr(pose));
   for (const std::string& pose : report.poses.near_singular) EXPECT_THAT(text, HasSubstr(pose));
   EXPECT_THAT(
