@@ -8,6 +8,7 @@
 #include "data/data_set.hpp"
 #include "diagnosis/scan.hpp"
 #include "effects/effect.hpp"
+#include "explanations/explanation_front.hpp"
 #include "pieces/pieces.hpp"
 
 namespace demecal::inline diagnosis {
@@ -42,8 +43,10 @@ Places with_rivals(const Places& set, const std::vector<Places>& rivals) {
 }
 
 /// The set with one of its effects exchanged for a rival by which it is described shortest, worthless ones left out;
-/// nothing where none is shorter. `rivals` are of the problem's effects.
+/// nothing where none is shorter. It does not come to more causes than a person reads. `rivals` are of the problem's
+/// effects.
 std::optional<FittedSet> with_one_exchange(const FittedSet& present, const std::vector<Places>& rivals) {
+  const std::size_t most_causes = std::max(present.causes().size(), kReadableCauses);
   FittedSet best = present;
   leave_out_worthless(best);  // that needs no exchange
   std::optional<FittedSet> found;
@@ -53,6 +56,7 @@ std::optional<FittedSet> with_one_exchange(const FittedSet& present, const std::
       other.remove(place);
       if (!other.holds(rival)) other.add(rival);
       leave_out_worthless(other);
+      if (other.causes().size() > most_causes) continue;
       if (other.description_nats() < best.description_nats()) found = best = std::move(other);
     }
   return found;
@@ -72,7 +76,7 @@ std::vector<Rival> rivals_beside(const FittedSet& set, std::size_t place, const 
 
 std::vector<std::size_t> with_better_rivals(const DiagnosisProblem& problem, const SetModels& models,
                                             const std::vector<PricedEffect>& effects, std::vector<std::size_t> set) {
-  constexpr int kMostExchanges = 6;
+  constexpr int kMostExchanges = 6, kSteps = 1;
   if (problem.validation.empty()) return set;
   const std::vector<Places> rivals = rivals_of_set(models, effects, set);
   const Places places = with_rivals(set, rivals);
@@ -82,7 +86,7 @@ std::vector<std::size_t> with_better_rivals(const DiagnosisProblem& problem, con
   std::ranges::sort(all.fitted);
   std::vector<PricedEffect> considered;
   for (const std::size_t place : places) considered.push_back(effects[place]);
-  const SetModels models_of_all(all, models.with(set), considered);
+  const SetModels models_of_all(all, refined(all, models.with(set), kSteps), considered);
   std::vector<Places> among_considered(places.size());  // rivals of rivals are not asked for
   for (std::size_t i = 0; i < set.size(); ++i)
     for (const std::size_t rival : rivals[i])

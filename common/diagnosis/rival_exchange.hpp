@@ -15,8 +15,9 @@ namespace demecal::inline diagnosis {
 std::vector<Rival> rivals_beside(const FittedSet& set, std::size_t place, const std::vector<PricedEffect>& effects);
 
 /// The set with effects exchanged for their rivals, one after another, and without what is then not worth its price,
-/// for as long as that describes the fitted and the validation poses together more shortly, by models refined over
-/// them. `models` are of problem.fitted, `effects` theirs; the set as it is where there are no validation poses.
+/// for as long as that describes the fitted and the validation poses together more shortly: to first order about the
+/// model of the set that is refined over them. `models` are of problem.fitted, `effects` theirs; the set as it is where
+/// there are no validation poses.
 std::vector<std::size_t> with_better_rivals(const DiagnosisProblem& problem, const SetModels& models,
                                             const std::vector<PricedEffect>& effects, std::vector<std::size_t> set);
 

@@ -49,9 +49,8 @@ class JudgedSets {
   /// hardly show: such a set may judge far better than what was found of as many causes. Where it does a little
   /// better, that may be chance.
   void offer_without_causes(const ExplanationProblem& problem) {
-    constexpr double kFarBetter = 0.8;       ///< ratio of rms errors
-    constexpr std::size_t kMostCauses = 12;  ///< more than a person looks at are left as they are
-    for (std::size_t count = kMostCauses; count > 0; --count) {
+    constexpr double kFarBetter = 0.8;  ///< ratio of rms errors
+    for (std::size_t count = kReadableCauses; count > 0; --count) {
       const auto from = std::ranges::lower_bound(all_, count, {}, causes_of_set);
       if (from == all_.end() || from->point.causes != count) continue;
       const auto cause_of_effect = [&](std::size_t effect) { return problem.cause[effect]; };

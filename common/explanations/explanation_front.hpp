@@ -14,6 +14,9 @@
 
 namespace demecal::inline explanations {
 
+/// A list of more causes than that is read by nobody.
+inline constexpr std::size_t kReadableCauses = 12;
+
 using SquaredErrors_mm2 = std::vector<double>;  ///< of the tool, one per pose
 SquaredErrors_mm2 squared_errors(const DataSet& data, std::span<const std::size_t> poses, const CorrectedRobot& robot);
 
