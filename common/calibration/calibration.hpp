@@ -31,9 +31,8 @@ struct JointSummary {
   bool kept = false;  ///< whether a correction is in the model
   double before_rad = 0.0;
   double after_rad = 0.0;
-  double bound_rad = 0.0;  ///< of the correction over its range
-  /// correction_limit_rad() where the bound comes within a tenth of it: the poses ask for as much or more.
-  std::optional<double> limit_rad{};
+  double bound_rad = 0.0;             ///< of the correction over its range
+  std::optional<double> limit_rad{};  ///< correction_limit_rad() of a correction that was held back to stay below it
   std::vector<double> discontinuities_rad{};
   std::string note;  ///< why a joint was left neutral; empty where it was not
   FormulaOrigin origin = FormulaOrigin::unstated;
@@ -47,9 +46,6 @@ std::string to_string(FormulaOrigin origin);
 /// are no targets.
 std::vector<JointSummary> joint_summaries(const JointTargets& declared, const JointTargets& now,
                                           const CorrectedRobot& robot);
-
-/// Sets the limits of the summaries; `training` as training_tables() makes them.
-void set_limits(const std::vector<JointTraining>& training, std::vector<JointSummary>& summaries);
 
 /// All that stands before the joint corrections are evolved.
 struct Preparation {

@@ -115,15 +115,6 @@ std::vector<JointSummary> joint_summaries(const JointTargets& declared, const Jo
   return summaries;
 }
 
-void set_limits(const std::vector<JointTraining>& training, std::vector<JointSummary>& summaries) {
-  constexpr double kNear = 0.9;
-  for (const JointTraining& one : training) {
-    JointSummary& summary = summaries[one.joint];
-    const double limit_rad = correction_limit_rad(one);
-    if (summary.kept && summary.bound_rad > kNear * limit_rad) summary.limit_rad = limit_rad;
-  }
-}
-
 std::vector<std::size_t> without_gross_errors(const DataSet& data, PoseSet set, const CorrectedRobot& declared) {
   std::vector<double> errors_m;
   for (const PoseSet some : {PoseSet::calibration, PoseSet::validation})
@@ -162,7 +153,6 @@ Calibration conclude(const DataSet& data, const Job& job, const Preparation& pre
   const bool exact = preparation.target_options.kind == TargetKind::exact || !any;
   result.joints = joint_summaries(
       preparation.targets, exact ? preparation.targets : targets_about(data, preparation, result.robot), result.robot);
-  set_limits(preparation.training, result.joints);
   for (JointSummary& summary : result.joints) {
     if (summary.kept) summary.origin = FormulaOrigin::evolved;
     if (!summary.kept) summary.note = why_neutral(job, candidates, data, summary.joint);

@@ -133,6 +133,9 @@ DiagnosedModel with_bounded_corrections(const DataSet& data, const DeclaredModel
       double& precision = model.precision[static_cast<Eigen::Index>(i)];
       if (limit > 0.0) precision = kFirmer * std::max(precision, 1.0 / limit);
     }
+    model.held_rad.resize(exceeded_rad.size());
+    for (std::size_t joint = 0; joint < exceeded_rad.size(); ++joint)
+      if (exceeded_rad[joint] > 0.0) model.held_rad[joint] = exceeded_rad[joint];
     model = refined(problem, std::move(model), kSteps);
   }
   drop_negligible_terms(model);
@@ -149,11 +152,12 @@ Calibration calibration_of(const DataSet& data, const DeclaredModel& declared, c
   JointTargets now;
   if (has_corrections(result.robot)) now = targets_about(data, preparation, result.robot);
   result.joints = joint_summaries(preparation.targets, now, result.robot);
-  if (has_corrections(result.robot))
-    set_limits(training_tables(result.robot.chain, now, preparation.corrections), result.joints);
   for (JointSummary& summary : result.joints) {
+    const auto joint = static_cast<std::size_t>(summary.joint);
+    if (summary.kept && joint < model.held_rad.size() && model.held_rad[joint] > 0.0)
+      summary.limit_rad = model.held_rad[joint];
     if (summary.kept) continue;
-    summary.note = why_uncorrected(declared, data.robot.chain.joints[static_cast<std::size_t>(summary.joint)]);
+    summary.note = why_uncorrected(declared, data.robot.chain.joints[joint]);
   }
   set_origins(model, {}, result);
   result.index_before_mm2 = performance_index_mm2(preparation.declared.robot, data, fitted);

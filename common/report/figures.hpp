@@ -113,7 +113,7 @@ std::string doubt_sentence(const Report& report);
 /// What the model's rms error of each set is without suspected outliers, and with them; empty where there are none.
 std::string outliers_sentence(const Report& report);
 
-/// That a correction was held back at its limit, or may exceed it; empty where it is well within.
+/// That a correction was held back by its limit, or may exceed it all the same; empty where it was not.
 std::string limit_sentence(const JointEntry& joint);
 
 /// Which of the corrections are formulas as they evolved and which are sums of smooth terms in their place, and what

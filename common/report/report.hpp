@@ -196,7 +196,7 @@ struct JointEntry {
   BeforeAfter mean_abs_error_rad;
   std::optional<Interval> range_rad;
   std::optional<double> bound_rad;
-  std::optional<double> limit_rad;          ///< of the bound, where it is held back there or above it
+  std::optional<double> limit_rad;          ///< of a correction that was held back to stay below it
   std::vector<double> discontinuities_rad;  ///< ascending
   std::string with_functions;               ///< the expression with calls of functions that joints share
   std::string note;                         ///< why it is not corrected

@@ -30,6 +30,8 @@ struct DiagnosedModel {
   NoiseModel noise{};            ///< beyond independent noise of these scales
   bool noise_estimated = false;  ///< together with the scales, which then stay; stations still settle among each other
   Eigen::VectorXd precision{};   ///< of the smooth terms, where they are to stay as they were chosen; else empty
+  /// Per joint the limit of its correction for which `precision` was raised, or 0; empty: of none.
+  std::vector<double> held_rad{};
 };
 
 /// The model's surroundings to first order: fields over the fitted and the validation poses, and the residual with all

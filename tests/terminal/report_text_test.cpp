@@ -39,7 +39,7 @@ TEST(Terminal, HasARowForEveryJointAndNamesWhatWasNoticed) {
     EXPECT_THAT(text, HasSubstr(joint.short_form));
     EXPECT_THAT(unwrapped(text), HasSubstr(limit_sentence(joint)));
   }
-  EXPECT_THAT(unwrapped(text), HasSubstr("at which this correction is held."));
+  EXPECT_THAT(unwrapped(text), HasSubstr("this correction is held back."));
   EXPECT_THAT(unwrapped(text), HasSubstr("above its limit of"));
   for (const std::string& pose : report.poses.outliers) EXPECT_THAT(text, HasSubstr(pose));
   for (const std::string& pose : report.poses.near_singular) EXPECT_THAT(text, HasSubstr(pose));
