@@ -199,8 +199,7 @@ std::string limit_sentence(const JointEntry& joint) {
         "This correction may reach {:.3g} mrad, above its limit of {:.3g} mrad: measure more poses before you trust "
         "it.",
         bound_mrad, limit_mrad);
-  return fmt::format("The poses ask for more than its limit of {:.3g} mrad: this correction is held back.",
-                     limit_mrad);
+  return fmt::format("The poses ask for more than its limit of {:.3g} mrad: this correction is held back.", limit_mrad);
 }
 
 std::string origins_sentence(const Report& report) {
