@@ -23,6 +23,7 @@
 #include "kinematics/chain.hpp"
 #include "kinematics/units.hpp"
 #include "parameters/declared_model.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/corrected_robot.hpp"
 #include "prediction/measurement.hpp"
 
@@ -146,7 +147,7 @@ double performance_index_mm2(const CorrectedRobot& robot, const DataSet& data, s
 Calibration conclude(const DataSet& data, const Job& job, const Preparation& preparation,
                      const std::vector<JointCandidates>& evolved, const FitOptions& options) {
   std::vector<JointCandidates> candidates = evolved;
-  for (JointCandidates& joint : candidates) add_short_forms(joint, job.gp);
+  in_pieces(candidates.size(), [&](std::size_t i) { add_short_forms(candidates[i], job.gp); });
   const CorrectedRobot& declared = preparation.declared.robot;
   Calibration result = with_best_corrections(data, job, preparation, candidates, options);
   const bool any = has_corrections(result.robot);

@@ -17,6 +17,7 @@
 #include "expression/bound.hpp"
 #include "fitness/fitness.hpp"
 #include "kinematics/units.hpp"
+#include "pieces/pieces.hpp"
 #include "prediction/measurement.hpp"
 
 namespace demecal::inline calibration {
@@ -34,13 +35,13 @@ struct CorrectionTrial {
 std::vector<CorrectionTrial> evaluate_all(const PoseEvaluator& selecting, const CorrectedRobot& robot,
                                           const std::vector<JointVector>& neutral, std::size_t joint,
                                           const std::vector<JointCorrection>& admissible) {
-  std::vector<CorrectionTrial> trials;
-  for (const JointCorrection& correction : admissible) {
-    CorrectionTrial& trial = trials.emplace_back(CorrectionTrial{correction, {}, 0.0});
-    const auto joints = selecting.with(neutral, joint, trial.correction);
-    trial.errors = selecting.squared_errors(robot, joints);
+  std::vector<CorrectionTrial> trials(admissible.size());
+  in_pieces(trials.size(), [&](std::size_t i) {
+    CorrectionTrial& trial = trials[i];
+    trial.correction = admissible[i];
+    trial.errors = selecting.squared_errors(robot, selecting.with(neutral, joint, trial.correction));
     trial.sum = sum(trial.errors);
-  }
+  });
   std::erase_if(trials, [](const CorrectionTrial& trial) { return !std::isfinite(trial.sum); });
   return trials;
 }

@@ -17,6 +17,7 @@
 #include "expression/bound.hpp"
 #include "formula_search/rewrite.hpp"
 #include "kinematics/chain.hpp"
+#include "pieces/pieces.hpp"
 #include "primitives/primitive.hpp"
 #include "products/tall_products.hpp"
 #include "random/distributions.hpp"
@@ -159,12 +160,13 @@ PricedFormulas FormulaSearcher::evolve_formulas(const Eigen::VectorXd& residual,
   evolver_.announce(purpose);
   const EvolvedJoints evolved = evolver_.evolve(training_of(tables), terms_);
   if (!evolved.is_complete) return std::nullopt;
-  std::vector<PricedFormula> formulas;
-  for (std::size_t i = 0; i < evolved.joints.size(); ++i) {
+  std::vector<std::vector<PricedFormula>> of_joints(evolved.joints.size());
+  in_pieces(of_joints.size(), [&](std::size_t i) {
     FormulaMisfit misfit(tables[i].table.variables, linearization_, tables[i].joint, residual);
-    std::ranges::move(formula_candidates(tables[i], evolved.joints[i].front, misfit, tables.size(), kMostPerJoint),
-                      std::back_inserter(formulas));
-  }
+    of_joints[i] = formula_candidates(tables[i], evolved.joints[i].front, misfit, tables.size(), kMostPerJoint);
+  });
+  std::vector<PricedFormula> formulas;
+  for (std::vector<PricedFormula>& one : of_joints) std::ranges::move(one, std::back_inserter(formulas));
   std::ranges::stable_sort(formulas, std::greater{}, &PricedFormula::gain_nats);
   return formulas;
 }
