@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "calibration/admissible.hpp"
 #include "calibration/calibration.hpp"
 #include "erring_arm.hpp"
@@ -82,6 +84,17 @@ TEST(Selection, DoesNotConsiderACandidateWithAPoleInTheRange) {
   const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration),
                                                  poses_of(data, PoseSet::validation), nominal_robot(data), joints);
   EXPECT_FALSE(selection.choices[0].kept);
+}
+
+TEST(Selection, DoesNotConsiderACandidateThatJumpsMoreThanFourTimes) {
+  for (const auto& [formula, is_considered] :
+       {std::pair{"0.001*SIGN(theta+0.5)", true}, std::pair{"0.001*SIGN(SIN(20*theta))", false}}) {
+    const DataSet data = measure(true_puma({"", formula, "", "", "", ""}), 60, 5e-5, 8, false);
+    const std::vector<JointCandidates> joints{candidates(1, {formula})};
+    const Selection selection = select_corrections(data, poses_of(data, PoseSet::calibration),
+                                                   poses_of(data, PoseSet::validation), nominal_robot(data), joints);
+    EXPECT_EQ(selection.choices[0].kept, is_considered) << formula;
+  }
 }
 
 TEST(Selection, CorrectionsFromElsewhereCompeteAndBelongTogether) {
