@@ -21,7 +21,7 @@ namespace demecal::inline calibration {
 namespace {
 
 constexpr std::size_t kMostJumps = 4;  ///< over a joint's range
-constexpr int kRangeGrid = 512;
+constexpr int kJumpGrid = 512;
 constexpr double kNegligible = 1e-6;    ///< rad or m
 constexpr double kLeastJumpRad = 1e-5;  ///< a tool a metre away then moves by a hundredth of a millimetre
 
@@ -35,7 +35,7 @@ bool jumps_seldom(const JointCorrection& correction) {
            node.primitive == Primitive::logarithm;
   };
   if (std::ranges::none_of(correction.formula(), may_jump)) return true;
-  return discontinuities(correction.formula(), correction.range_rad(), kLeastJumpRad, kRangeGrid).size() <= kMostJumps;
+  return discontinuities(correction.formula(), correction.range_rad(), kLeastJumpRad, kJumpGrid).size() <= kMostJumps;
 }
 
 /// Whether the joint's correction moves what is seen of any pose.
@@ -52,23 +52,14 @@ bool moves_any_pose(const DataSet& data, const CorrectedRobot& robot, std::size_
   });
 }
 
-/// Whether a term stays below a microradian over the range. Interval arithmetic often finds it larger than it is.
-bool is_small(const Tree& term, const Interval& range) {
-  constexpr double kMostOverestimated = 10.0;
-  if (!stays_within(term, range, kMostOverestimated * kNegligible)) return false;
-  for (int i = 0; i <= kRangeGrid; ++i) {
-    const double theta = std::lerp(range.lower, range.upper, static_cast<double>(i) / kRangeGrid);
-    if (!(std::abs(evaluate(term, std::span(&theta, 1))) < kNegligible)) return false;
-  }
-  return true;
-}
-
 /// A sum without the terms that stay below a microradian over the range; nothing where none is left.
 std::optional<Tree> without_small_terms(std::span<const Node> sum, const Interval& range) {
+  constexpr int kHalvings = 16;  ///< polynomials of many terms need more than other formulas
   const Primitive root = sum.front().primitive;
   if (root != Primitive::add && root != Primitive::subtract) {
     Tree term(sum.begin(), sum.end());
-    return is_small(term, range) ? std::nullopt : std::optional(std::move(term));
+    if (stays_within(term, range, kNegligible, kHalvings)) return std::nullopt;
+    return term;
   }
   const std::size_t second = subtree_end(sum, 1);
   const std::optional<Tree> left = without_small_terms(sum.subspan(1, second - 1), range);

@@ -14,7 +14,7 @@
 
 namespace demecal::inline explanations {
 
-/// A list of more causes than that is read by nobody.
+/// The most causes that a person reads through.
 inline constexpr std::size_t kReadableCauses = 12;
 
 using SquaredErrors_mm2 = std::vector<double>;  ///< of the tool, one per pose

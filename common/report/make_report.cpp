@@ -112,7 +112,7 @@ JointEntry joint_entry(const JointSummary& summary, const CalibratedModel& model
 }
 
 /// `joints`: as they were calibrated, for a model file says neither where its formulas are from nor what held them.
-void add_origins(const std::vector<JointSummary>& joints, std::vector<JointEntry>& entries) {
+void add_origins_and_limits(const std::vector<JointSummary>& joints, std::vector<JointEntry>& entries) {
   for (std::size_t joint = 0; joint < std::min(joints.size(), entries.size()); ++joint) {
     if (!entries[joint].kept) continue;
     entries[joint].origin = to_string(joints[joint].origin);
@@ -258,7 +258,7 @@ Report make_report(const Conclusions& run) {
                                   if_finite(run.calibration.index_after_mm2)};
   if (has_joints(model))
     for (const JointSummary& summary : model.joints) report.joints.push_back(joint_entry(summary, model));
-  add_origins(run.calibration.joints, report.joints);
+  add_origins_and_limits(run.calibration.joints, report.joints);
   add_as_evolved(run, report);
   add_short_forms(run, report.joints);
   report.shared_functions = function_entries(model);
